@@ -1,0 +1,27 @@
+//! Fits shadow maps to real scenes and shows what came of it: a table, and pictures of the camera's view, of the
+//! light's view and of the shadow maps themselves.
+//!
+//! The pictures are ray-cast on the processor, so the tool needs no graphics driver; the data flows down this list:
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`args`] | the command line |
+//! | [`light`] | a light as a person writes it, and as the fit takes it |
+//! | [`scene`] | the triangles, cameras and lights of a `.glb` file, or of the built-in chess board |
+//! | [`trace`] | rays against the triangles |
+//! | [`framing`] | which camera looks at the scene, and its near and far planes |
+//! | [`fitting`] | the calls into `shadowfit`, and their time |
+//! | [`picture`] | what is written as PNG |
+//! | [`table`] | what is printed |
+//! | [`check`] | all of it, in order |
+
+pub mod args;
+pub mod check;
+pub mod fitting;
+pub mod framing;
+pub mod light;
+pub mod picture;
+pub mod progress;
+pub mod scene;
+pub mod table;
+pub mod trace;

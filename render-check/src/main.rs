@@ -1,0 +1,16 @@
+//! `render-check`: see the library's front page, or `render-check --help`.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use render_check::{args::Args, check};
+
+fn main() -> ExitCode {
+    match check::run(&Args::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,24 @@
+//! What is written as PNG, and how it is drawn.
+
+mod canvas;
+mod lens;
+mod light_view;
+mod lines;
+mod map_view;
+mod shade;
+mod text;
+mod view;
+
+pub use canvas::{Canvas, Colour, Sample, save};
+pub use lens::Lens;
+pub use light_view::{light_lens, light_view};
+pub use lines::{Line, Pen, draw_lines};
+pub use map_view::{DepthMap, maps_view};
+pub use shade::Lighting;
+pub use view::camera_view;
+
+/// The focus body's edges.
+const BODY_COLOUR: Colour = [1.0, 0.28, 0.02];
+
+/// The camera's frustum.
+const FRUSTUM_COLOUR: Colour = [0.03, 0.30, 0.95];

@@ -1,0 +1,171 @@
+//! Triangles in world space.
+
+use shadowfit::glam::{DMat3, DMat4, DVec3, Vec3};
+
+use super::LeftOut;
+
+/// All triangles of a scene, in world space, indexed, with a colour each.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    /// Positions.
+    pub vertices: Vec<DVec3>,
+    /// Unit normals, one for each vertex; zero where the surface is meant to look flat.
+    pub normals: Vec<Vec3>,
+    /// Three indices into `vertices`, counter-clockwise seen from the front.
+    pub triangles: Vec<[u32; 3]>,
+    /// The linear RGB base colour of each triangle.
+    pub colours: Vec<[f32; 3]>,
+}
+
+impl Mesh {
+    /// The corners of a triangle.
+    #[must_use]
+    pub fn corners(&self, triangle: usize) -> [DVec3; 3] {
+        self.triangles[triangle].map(|i| self.vertices[i as usize])
+    }
+
+    /// The unit normal on the triangle's front.
+    #[must_use]
+    pub fn face_normal(&self, triangle: usize) -> DVec3 {
+        let [a, b, c] = self.corners(triangle);
+        (b - a).cross(c - a).normalize_or(DVec3::Y)
+    }
+
+    /// The smooth unit normal at a point of the triangle, on the triangle's front; `None` where it has none.
+    #[must_use]
+    pub fn shading_normal(&self, triangle: usize, point: DVec3) -> Option<DVec3> {
+        let [na, nb, nc] = self.triangles[triangle].map(|i| self.normals[i as usize].as_dvec3());
+        let [a, b, c] = self.corners(triangle);
+        let cross = (b - a).cross(c - a);
+        // Barycentric coordinates as ratios of signed areas.
+        let weight_b = (point - a).cross(c - a).dot(cross) / cross.length_squared();
+        let weight_c = (b - a).cross(point - a).dot(cross) / cross.length_squared();
+        let normal = (na * (1.0 - weight_b - weight_c) + nb * weight_b + nc * weight_c).try_normalize()?;
+        // A normal that disagrees with the winding helps nobody; files have them.
+        Some(if normal.dot(cross) < 0.0 { -normal } else { normal })
+    }
+
+    /// The least and greatest coordinates of all triangles. A box turned inside out where there are none.
+    #[must_use]
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        let used = self.triangles.iter().flatten().map(|&i| self.vertices[i as usize]);
+        used.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), v| (min.min(v), max.max(v)))
+    }
+}
+
+/// A piece of a mesh in coordinates of its own.
+#[derive(Clone, Copy, Debug)]
+pub struct Part<'a> {
+    /// Positions.
+    pub positions: &'a [DVec3],
+    /// Normals, one for each position, or none at all for a flat look.
+    pub normals: &'a [Vec3],
+    /// Indices into `positions`, three for each triangle.
+    pub triangles: &'a [[u32; 3]],
+    /// Linear RGB.
+    pub colour: [f32; 3],
+}
+
+/// Collects parts into one mesh and leaves out the triangles that no ray can meet.
+#[derive(Debug, Default)]
+pub struct MeshBuilder {
+    mesh: Mesh,
+    /// What was left out so far.
+    pub left_out: LeftOut,
+}
+
+impl MeshBuilder {
+    /// Adds a part. Triangles with an index beyond the positions must have been refused before.
+    pub fn add(&mut self, part: &Part<'_>, world_from_part: DMat4) {
+        let first = self.mesh.vertices.len() as u32;
+        self.mesh.vertices.extend(part.positions.iter().map(|&p| world_from_part.transform_point3(p)));
+
+        // Normals are covectors: they go with the cofactor matrix, which is the inverse transpose but for a factor
+        // and exists for flattened parts too.
+        let linear = DMat3::from_mat4(world_from_part);
+        let mirrored = linear.determinant() < 0.0;
+        let cofactors = DMat3::from_cols(
+            linear.y_axis.cross(linear.z_axis),
+            linear.z_axis.cross(linear.x_axis),
+            linear.x_axis.cross(linear.y_axis),
+        );
+        let facing = if mirrored { -1.0 } else { 1.0 };
+        self.mesh.normals.extend(
+            part.normals.iter().map(|&n| (facing * (cofactors * n.as_dvec3())).normalize_or_zero().as_vec3()),
+        );
+        self.mesh.normals.resize(self.mesh.vertices.len(), Vec3::ZERO);
+
+        for triangle in part.triangles {
+            let mut corners = triangle.map(|i| first + i);
+            // A mirroring node turns the winding round; the front must stay the front.
+            if mirrored {
+                corners.swap(1, 2);
+            }
+            let [a, b, c] = corners.map(|i| self.mesh.vertices[i as usize]);
+            if !(a.is_finite() && b.is_finite() && c.is_finite()) {
+                self.left_out.not_finite += 1;
+            } else if is_flat(a, b, c) {
+                self.left_out.flat += 1;
+            } else {
+                self.mesh.triangles.push(corners);
+                self.mesh.colours.push(part.colour);
+            }
+        }
+    }
+
+    /// The mesh and what was left out of it.
+    #[must_use]
+    pub fn finish(self) -> (Mesh, LeftOut) {
+        (self.mesh, self.left_out)
+    }
+}
+
+/// Whether three points lie on a line, as far as coordinates of that size can tell: each edge is known to a few
+/// roundings of the largest coordinate, so the doubled area is known to that times the longest edge.
+fn is_flat(a: DVec3, b: DVec3, c: DVec3) -> bool {
+    let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+    let largest = a.abs().max(b.abs()).max(c.abs()).max_element();
+    (b - a).cross(c - a).length() <= 4.0 * f64::EPSILON * largest * longest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: [DVec3; 4] =
+        [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
+
+    fn part<'a>(positions: &'a [DVec3], triangles: &'a [[u32; 3]]) -> Part<'a> {
+        Part { positions, normals: &[], triangles, colour: [1.0; 3] }
+    }
+
+    #[test]
+    fn triangles_that_no_ray_can_meet_are_counted_and_dropped() {
+        let positions = [DVec3::ZERO, DVec3::X, 2.0 * DVec3::X, DVec3::Y, DVec3::new(f64::NAN, 0.0, 0.0)];
+        let mut builder = MeshBuilder::default();
+        builder.add(&part(&positions, &[[0, 1, 3], [0, 1, 2], [0, 0, 1], [0, 1, 4]]), DMat4::IDENTITY);
+        let (mesh, left_out) = builder.finish();
+        assert_eq!(mesh.triangles, [[0, 1, 3]]);
+        assert_eq!((left_out.flat, left_out.not_finite), (2, 1));
+        assert_eq!(mesh.bounds(), (DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0)), "the dropped vertices do not count");
+    }
+
+    #[test]
+    fn the_front_of_a_mirrored_part_stays_its_front() {
+        let mut builder = MeshBuilder::default();
+        let normals = [Vec3::Z; 4];
+        let square = Part { normals: &normals, ..part(&SQUARE, &[[0, 1, 2], [0, 2, 3]]) };
+        builder.add(&square, DMat4::from_scale(DVec3::new(-2.0, 1.0, 1.0)));
+        let (mesh, _) = builder.finish();
+        assert_eq!(mesh.face_normal(0), DVec3::Z);
+        assert_eq!(mesh.shading_normal(0, DVec3::new(-0.5, 0.2, 0.0)), Some(DVec3::Z));
+    }
+
+    #[test]
+    fn a_part_without_normals_looks_flat() {
+        let mut builder = MeshBuilder::default();
+        builder.add(&part(&SQUARE, &[[0, 1, 2]]), DMat4::IDENTITY);
+        let (mesh, _) = builder.finish();
+        assert_eq!(mesh.shading_normal(0, DVec3::ZERO), None);
+    }
+}

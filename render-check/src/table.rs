@@ -1,0 +1,109 @@
+//! What is printed: a row for each light.
+
+use std::time::Duration;
+
+use comfy_table::presets::UTF8_FULL_CONDENSED;
+use comfy_table::{CellAlignment, ContentArrangement, Table};
+use shadowfit::glam::DVec3;
+use shadowfit::{Body, Outcome};
+
+use crate::fitting::LightFit;
+
+/// The table of all lights. `bounds` are those of the scene.
+#[must_use]
+pub fn table(fits: &[LightFit], bounds: (DVec3, DVec3)) -> Table {
+    let mut table = Table::new();
+    table
+        .load_style(UTF8_FULL_CONDENSED)
+        .set_content_arrangement(ContentArrangement::Disabled)
+        .set_header(["", "light", "class", "s", "H", "window", "aliasing", "fit"]);
+    for (i, fit) in fits.iter().enumerate() {
+        table.add_row([
+            (i + 1).to_string(),
+            fit.spec.to_string(),
+            fit.class.kind.to_string(),
+            shift(&fit.shifted),
+            body(fit, bounds),
+            format!("uniform {}\nPSM     {}", window(&fit.uniform), window(&fit.perspective)),
+            format!("uniform {}\nPSM     {}", aliasing(&fit.uniform), aliasing(&fit.perspective)),
+            microseconds(fit.median_time),
+        ]);
+    }
+    for column in [0, 3, 7] {
+        if let Some(column) = table.column_mut(column) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    table
+}
+
+/// Why there is no map, where there is none: once for each reason.
+#[must_use]
+pub fn reason_without_map(outcome: &Outcome) -> Option<String> {
+    match outcome {
+        Outcome::Map(_) => None,
+        Outcome::Empty(empty) => Some(empty.to_string()),
+        Outcome::Surrounded(surrounded) => Some(surrounded.to_string()),
+    }
+}
+
+fn shift(outcome: &Outcome) -> String {
+    match outcome {
+        Outcome::Map(map) => number(map.report().shift),
+        _ => "-".into(),
+    }
+}
+
+fn body(fit: &LightFit, (min, max): (DVec3, DVec3)) -> String {
+    if fit.body.is_empty() {
+        return "empty".into();
+    }
+    let extent = max - min;
+    let share = |body: &Body| match extent.x * extent.y * extent.z {
+        scene if scene > 0.0 => format!("{:.1} %", 100.0 * body.volume() / scene),
+        _ => "flat".into(),
+    };
+    let counts = |body: &Body| format!("{} v, {} f", body.vertices().len(), body.faces().count());
+    format!(
+        "{}, {} of S\ntight: {}, {}",
+        counts(&fit.body),
+        share(&fit.body),
+        counts(&fit.tight_body),
+        share(&fit.tight_body)
+    )
+}
+
+fn window(outcome: &Outcome) -> String {
+    match outcome {
+        Outcome::Map(_) => String::new(),
+        _ => "-".into(),
+    }
+}
+
+fn aliasing(outcome: &Outcome) -> String {
+    match outcome {
+        Outcome::Map(map) => number(map.report().aliasing),
+        _ => "-".into(),
+    }
+}
+
+/// A number with three digits that matter.
+fn number(value: f64) -> String {
+    let digits = if value.abs() >= 1.0 && value.is_finite() { (2.0 - value.abs().log10().floor()).max(0.0) } else { 3.0 };
+    format!("{value:.*}", digits as usize)
+}
+
+fn microseconds(time: Duration) -> String {
+    format!("{:.1} µs", time.as_secs_f64() * 1e6)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_three_digits() {
+        assert_eq!([0.0, 0.1234, 1.234, 56.78, 1234.5].map(number), ["0.000", "0.123", "1.23", "56.8", "1234"]);
+        assert_eq!(number(f64::INFINITY), "inf");
+    }
+}

@@ -1,0 +1,243 @@
+//! The light l, and L, what it can light.
+
+use crate::convex::Plane;
+use crate::error::{InputError, Problem, check};
+use glam::{DVec2, DVec3, DVec4};
+
+/// A light: a homogeneous point l and a convex region L outside of which it lights nothing.
+///
+/// Directions of light point **towards** the light. The axis of a spot or a hemisphere is the axis of the region it
+/// lights and points **away** from the light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "stored::Light"))]
+pub struct Light {
+    kind: Kind,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+enum Kind {
+    Directional { direction_to_light: DVec3 },
+    Local { position: DVec3, near: f64, #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))] range: f64, shape: Shape },
+}
+
+/// How a light at a position spreads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+enum Shape {
+    Point,
+    /// `half_angle` in radians.
+    Spot { axis: DVec3, half_angle: f64 },
+    Hemisphere { axis: DVec3 },
+}
+
+impl Light {
+    /// A light infinitely far away, as the sun: `direction_to_light` points from the scene **towards** it and need not
+    /// be unit length.
+    ///
+    /// # Errors
+    ///
+    /// Names `"direction_to_light"` when it is zero or not finite.
+    pub fn directional(direction_to_light: impl Into<DVec3>) -> Result<Self, InputError> {
+        let direction_to_light = check::direction("direction_to_light", direction_to_light.into())?;
+        Ok(Self { kind: Kind::Directional { direction_to_light } })
+    }
+
+    /// A light at a position that shines all around.
+    ///
+    /// `near` is the distance from the light within which nothing casts a shadow (the lamp's own bulb and shade),
+    /// `range` the distance it reaches, both in world units; `range` may be infinite.
+    ///
+    /// # Errors
+    ///
+    /// Names the field that is not finite, not positive, or out of order.
+    pub fn point(position: impl Into<DVec3>, near: f64, range: f64) -> Result<Self, InputError> {
+        Self::local(position.into(), near, range, Shape::Point)
+    }
+
+    /// A light at a position that shines into a cone.
+    ///
+    /// `axis` points from the light along the middle of the cone, `half_angle` is the angle between the axis and the
+    /// cone's side in radians, in (0, π/2). `near` and `range` are as for [`Self::point`].
+    ///
+    /// # Errors
+    ///
+    /// Names the field that is not finite, without direction, outside its range, or out of order.
+    pub fn spot(
+        position: impl Into<DVec3>,
+        axis: impl Into<DVec3>,
+        half_angle: f64,
+        near: f64,
+        range: f64,
+    ) -> Result<Self, InputError> {
+        let axis = check::direction("axis", axis.into())?;
+        // A cone narrower than the smallest field of view, or within rounding of a half space, is neither.
+        const MARGIN: f64 = 1e-9;
+        if !(half_angle > MARGIN && half_angle < core::f64::consts::FRAC_PI_2 - MARGIN) {
+            return check::fail("half_angle", Problem::AngleOutOfRange);
+        }
+        Self::local(position.into(), near, range, Shape::Spot { axis, half_angle })
+    }
+
+    /// A light at a position that shines into the half space that `axis` points into, as a wall lamp does. `near` and
+    /// `range` are as for [`Self::point`].
+    ///
+    /// # Errors
+    ///
+    /// Names the field that is not finite, without direction, not positive, or out of order.
+    pub fn hemisphere(
+        position: impl Into<DVec3>,
+        axis: impl Into<DVec3>,
+        near: f64,
+        range: f64,
+    ) -> Result<Self, InputError> {
+        let axis = check::direction("axis", axis.into())?;
+        Self::local(position.into(), near, range, Shape::Hemisphere { axis })
+    }
+
+    fn local(position: DVec3, near: f64, range: f64, shape: Shape) -> Result<Self, InputError> {
+        let position = check::point("position", position)?;
+        let near = check::distance("near", near)?;
+        let range = check::distance_or_infinity("range", range)?;
+        if near >= range {
+            return check::fail("range", Problem::OutOfOrder);
+        }
+        Ok(Self { kind: Kind::Local { position, near, range, shape } })
+    }
+
+    /// The light as a homogeneous point l: (position, 1), or (unit direction towards the light, 0).
+    #[must_use]
+    pub const fn homogeneous(&self) -> DVec4 {
+        match self.kind {
+            Kind::Directional { direction_to_light: d } => DVec4::new(d.x, d.y, d.z, 0.0),
+            Kind::Local { position: p, .. } => DVec4::new(p.x, p.y, p.z, 1.0),
+        }
+    }
+
+    /// Where the light is, unless it is infinitely far away.
+    #[must_use]
+    pub const fn position(&self) -> Option<DVec3> {
+        match self.kind {
+            Kind::Directional { .. } => None,
+            Kind::Local { position, .. } => Some(position),
+        }
+    }
+
+    /// The distance from a light at a position within which nothing casts, in world units; 0 for a directional light.
+    #[must_use]
+    pub const fn near(&self) -> f64 {
+        match self.kind {
+            Kind::Directional { .. } => 0.0,
+            Kind::Local { near, .. } => near,
+        }
+    }
+
+    /// The unit direction from a point towards the light.
+    #[must_use]
+    pub fn direction_from(&self, point: DVec3) -> DVec3 {
+        match self.kind {
+            Kind::Directional { direction_to_light } => direction_to_light,
+            Kind::Local { position, .. } => (position - point).normalize_or_zero(),
+        }
+    }
+
+    /// The planes of L in world space, inside ≥ 0; none for a light without bounds.
+    ///
+    /// A spot's are the four sides of the pyramid around its cone, its near plane and, with a finite range, its far
+    /// plane; a hemisphere's its near plane and the rest of a box; a point light's the box around its range.
+    #[must_use]
+    pub fn planes(&self) -> LightPlanes {
+        let mut planes = LightPlanes { planes: [Plane::ONE; Self::MAX_PLANES], len: 0 };
+        let Kind::Local { position, near, range, shape } = self.kind else {
+            return planes;
+        };
+        match shape {
+            Shape::Point => {
+                for axis in DVec3::AXES {
+                    planes.push_slab(axis, position, -range, range);
+                }
+            }
+            Shape::Spot { axis, half_angle } => {
+                let (sin_cos, (u, v)) = (DVec2::from_angle(half_angle), crate::frame::across(axis, DVec3::NEG_Z, DVec3::Y));
+                for side in [u, -u, v, -v] {
+                    planes.push(Plane::through(axis * sin_cos.y - side * sin_cos.x, position));
+                }
+                // At the cone's side a point at distance `near` is only this far along the axis.
+                planes.push_slab(axis, position, near * sin_cos.x, range);
+            }
+            Shape::Hemisphere { axis } => {
+                let (u, v) = crate::frame::across(axis, DVec3::NEG_Z, DVec3::Y);
+                planes.push_slab(axis, position, 0.0, range);
+                planes.push_slab(u, position, -range, range);
+                planes.push_slab(v, position, -range, range);
+            }
+        }
+        planes
+    }
+
+    /// The most planes that L can have.
+    pub(crate) const MAX_PLANES: usize = 6;
+}
+
+/// Up to six planes, as [`Light::planes`] returns them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightPlanes {
+    planes: [Plane; Light::MAX_PLANES],
+    len: usize,
+}
+
+impl LightPlanes {
+    fn push(&mut self, plane: Plane) {
+        self.planes[self.len] = plane;
+        self.len += 1;
+    }
+
+    /// Distances along `axis` from `position` between `min` and `max`, either of which may be infinite.
+    fn push_slab(&mut self, axis: DVec3, position: DVec3, min: f64, max: f64) {
+        let along = Plane::through(axis, position);
+        if min.is_finite() {
+            self.push(along - Plane::ONE * min);
+        }
+        if max.is_finite() {
+            self.push(Plane::ONE * max - along);
+        }
+    }
+}
+
+impl core::ops::Deref for LightPlanes {
+    type Target = [Plane];
+    fn deref(&self) -> &[Plane] {
+        &self.planes[..self.len]
+    }
+}
+
+/// A light as it is stored: the same numbers, checked again when they are read.
+#[cfg(feature = "serde")]
+mod stored {
+    use super::{DVec3, InputError, Shape};
+
+    #[derive(serde::Deserialize)]
+    pub(super) struct Light {
+        kind: Kind,
+    }
+
+    #[derive(serde::Deserialize)]
+    enum Kind {
+        Directional { direction_to_light: DVec3 },
+        Local { position: DVec3, near: f64, #[serde(with = "crate::infinity")] range: f64, shape: Shape },
+    }
+
+    impl TryFrom<Light> for super::Light {
+        type Error = InputError;
+        fn try_from(light: Light) -> Result<Self, InputError> {
+            match light.kind {
+                Kind::Directional { direction_to_light } => Self::directional(direction_to_light),
+                Kind::Local { position, near, range, shape } => match shape {
+                    Shape::Point => Self::point(position, near, range),
+                    Shape::Spot { axis, half_angle } => Self::spot(position, axis, half_angle, near, range),
+                    Shape::Hemisphere { axis } => Self::hemisphere(position, axis, near, range),
+                },
+            }
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! A fitted map: the matrices a renderer uploads, and what they cost and give.
+
+use crate::bounds::{Interval, Rectangle};
+use crate::clip_space::ClipSpace;
+use crate::convex::{Body, Plane, matrix_from_rows};
+use crate::focus::{Focus, Form};
+use crate::light::Light;
+use crate::perspective::{LightClass, VirtualCamera, classify};
+use crate::quality::{DepthFormat, Footprint, depth_resolution, footprint};
+use crate::rays::Rays;
+use crate::settings::{Origin, Settings};
+use crate::view::View;
+use glam::{DMat4, DVec3, Mat4};
+
+/// A fitted shadow map.
+///
+/// # Guarantees
+///
+/// With R what is visible and lit, H the tight focus body, and points at least the light's near distance from it:
+///
+/// - every point of R and of H, taken through the f32 matrix in f32, lies inside the clip volume, and R keeps the border
+///   of the settings from its sides;
+/// - points on a ray from the light share their (x, y), and depth grows away from the light: the test is 'less', or
+///   'greater' for a reversed clip space, whatever the class of the light;
+/// - w > 0, so that no caster wraps around, wherever it is, also behind the eye.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Map {
+    /// World to clip, depth 0 to 1, y up.
+    pub(crate) rows: [Plane; 4],
+    pub(crate) view: View,
+    pub(crate) light: Light,
+    pub(crate) settings: Settings,
+    pub(crate) camera: VirtualCamera,
+    pub(crate) window: Window,
+    pub(crate) depth: DepthSpan,
+    pub(crate) weakening: f64,
+    pub(crate) warp_ratio: f64,
+}
+
+/// The window of a map: what its x and y cover.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Window {
+    /// Width of the map across the ray in its middle: world units for a directional light, tangents (world units at
+    /// distance 1) for any other.
+    pub width: f64,
+    /// Height, in the same units.
+    pub height: f64,
+    /// The part of the width and height that is neither border nor needed by what is visible, added to cover the
+    /// rounding of the f32 matrix or because what is visible has no extent of its own.
+    pub padding: (f64, f64),
+}
+
+impl Window {
+    pub(crate) fn new(needed: &Rectangle, padded: &Rectangle, inner: f64) -> Self {
+        let share = |needed: f64, padded: f64| 1.0 - needed / (padded * inner);
+        Self {
+            width: 2.0 * padded.half.x,
+            height: 2.0 * padded.half.y,
+            padding: (share(needed.half.x, padded.half.x), share(needed.half.y, padded.half.y)),
+        }
+    }
+}
+
+/// The depth range of a map, on the ray in its middle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct DepthSpan {
+    /// Distance of the near plane along the map's axis in world units, from the light, or from the eye when the light
+    /// is infinitely far away.
+    pub near: f64,
+    /// Distance of the far plane, likewise.
+    pub far: f64,
+}
+
+impl DepthSpan {
+    /// From depths of the homography, whose depth 0 is at distance `zero` along the axis.
+    pub(crate) fn new(rays: &Rays, zero: f64, depth: &Interval) -> Self {
+        // On the ray in the middle c is w: z = along − zero for a directional light, 1 − zero/along for any other.
+        let along = |z: f64| if rays.local { zero / (1.0 - z) } else { zero + z };
+        Self { near: along(depth.min), far: along(depth.max) }
+    }
+}
+
+impl Map {
+    /// The matrix to upload: world space, or positions relative to the eye ([`Origin::Eye`]), to clip space in the
+    /// convention of the settings.
+    #[must_use]
+    pub fn matrix(&self) -> Mat4 {
+        self.about_origin(self.shadow_from_world()).as_mat4()
+    }
+
+    /// The matrix from the same positions to texture space: after division by w, (x, y) are texture coordinates in
+    /// [0, 1]² and z is what the depth buffer holds.
+    #[must_use]
+    pub fn texture_matrix(&self) -> Mat4 {
+        self.about_origin(self.texture_from_world()).as_mat4()
+    }
+
+    /// World space to clip space in the convention of the settings.
+    #[must_use]
+    pub fn shadow_from_world(&self) -> DMat4 {
+        self.shadow_from_world_in(self.settings.clip())
+    }
+
+    /// World space to clip space in any convention.
+    #[must_use]
+    pub fn shadow_from_world_in(&self, clip: ClipSpace) -> DMat4 {
+        matrix_from_rows(clip.rows_from_wgpu(self.rows))
+    }
+
+    /// World space to texture space, see [`Self::texture_matrix`].
+    #[must_use]
+    pub fn texture_from_world(&self) -> DMat4 {
+        matrix_from_rows(self.settings.clip().texture_rows_from_wgpu(self.rows))
+    }
+
+    /// The matrix for positions relative to the origin of the settings.
+    fn about_origin(&self, from_world: DMat4) -> DMat4 {
+        match self.settings.origin() {
+            Origin::World => from_world,
+            Origin::Eye => from_world * DMat4::from_translation(self.view.eye()),
+        }
+    }
+
+    /// What one texel covers at a point, across the ray from the light; `None` outside of the map (w ≤ 0).
+    #[must_use]
+    pub fn footprint(&self, point: DVec3) -> Option<Footprint> {
+        footprint(&self.rows, -self.light.direction_from(point), point, self.settings.map_size())
+    }
+
+    /// Aliasing at a point: the longer side of a texel's footprint over the side of a pixel's, both across their rays.
+    /// At 1 a texel is as large as a pixel, above it is larger and shows. `None` outside of the map.
+    #[must_use]
+    pub fn aliasing(&self, point: DVec3) -> Option<f64> {
+        let pixel = self.pixel_size(point);
+        self.footprint(point).map(|texel| texel.longest() / pixel)
+    }
+
+    /// The side of a pixel at a point, across the view axis, in world units.
+    #[must_use]
+    pub fn pixel_size(&self, point: DVec3) -> f64 {
+        2.0 * self.view.half_height(self.view.depth(point)) / f64::from(self.settings.image_height())
+    }
+
+    /// The distance along the ray from the light, in world units, that one step of a depth format makes at a point.
+    #[must_use]
+    pub fn depth_resolution(&self, point: DVec3, format: DepthFormat) -> f64 {
+        let reversed = self.settings.clip().depth.is_reversed();
+        depth_resolution(&self.rows, -self.light.direction_from(point), point, format, reversed)
+    }
+
+    /// The settings the map was fitted with.
+    #[must_use]
+    pub const fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The camera whose perspective warps the map.
+    #[must_use]
+    pub const fn camera(&self) -> &VirtualCamera {
+        &self.camera
+    }
+
+    /// What the map's x and y cover.
+    #[must_use]
+    pub const fn window(&self) -> &Window {
+        &self.window
+    }
+
+    /// What the map's depth covers.
+    #[must_use]
+    pub const fn depth(&self) -> &DepthSpan {
+        &self.depth
+    }
+
+    /// The largest w over the least w on what is visible, against the uniform map's: how strong the warp is. 1 for a
+    /// uniform map.
+    #[must_use]
+    pub const fn warp_ratio(&self) -> f64 {
+        self.warp_ratio
+    }
+
+    /// The part of w, on the ray in the middle, that is the uniform map's: 0 for the paper's warp as it is, up to 1 for
+    /// no warp at all.
+    #[must_use]
+    pub const fn weakening(&self) -> f64 {
+        self.weakening
+    }
+
+    /// The whole report. `focus` is the one that the map was fitted from.
+    #[must_use]
+    pub fn report(&self, focus: &Focus<'_>) -> Report {
+        let visible = focus.visible();
+        let over = |value: &dyn Fn(DVec3) -> f64| visible.vertices().iter().map(|&point| value(point)).fold(0.0, f64::max);
+        let resolution = |format| over(&|point| self.depth_resolution(point, format));
+        Report {
+            class: classify(&self.view, &self.light),
+            body: focus.body(Form::Tight),
+            camera: self.camera,
+            warp_ratio: self.warp_ratio,
+            window: self.window,
+            depth: self.depth,
+            texel: over(&|point| self.footprint(point).map_or(f64::INFINITY, |texel| texel.longest())),
+            aliasing: over(&|point| self.aliasing(point).unwrap_or(f64::INFINITY)),
+            depth_resolution: DepthResolution {
+                unorm16: resolution(DepthFormat::Unorm16),
+                unorm24: resolution(DepthFormat::Unorm24),
+                float32: resolution(DepthFormat::Float32),
+            },
+            visible,
+        }
+    }
+}
+
+/// Everything there is to know about a fitted map.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Report {
+    /// The class of the light after the camera's perspective.
+    pub class: LightClass,
+    /// R, what is visible and lit.
+    pub visible: Body,
+    /// H in its tight form.
+    pub body: Body,
+    /// The camera whose perspective warps the map, with its back-shift.
+    pub camera: VirtualCamera,
+    /// How strong the warp is, see [`Map::warp_ratio`].
+    pub warp_ratio: f64,
+    /// What x and y cover.
+    pub window: Window,
+    /// What depth covers.
+    pub depth: DepthSpan,
+    /// The longest side of a texel's footprint over the vertices of R, in world units.
+    pub texel: f64,
+    /// The worst aliasing over the vertices of R, see [`Map::aliasing`].
+    pub aliasing: f64,
+    /// The coarsest depth resolution over the vertices of R.
+    pub depth_resolution: DepthResolution,
+}
+
+/// What each depth format resolves, in world units along a ray from the light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct DepthResolution {
+    /// 16-bit unsigned normalised.
+    pub unorm16: f64,
+    /// 24-bit unsigned normalised.
+    pub unorm24: f64,
+    /// 32-bit float.
+    pub float32: f64,
+}

@@ -1,0 +1,104 @@
+//! What a matrix gives: texel footprints and depth resolution.
+
+use crate::convex::Plane;
+use glam::DVec3;
+
+/// What one texel covers at a point: a parallelogram across the ray from the light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Footprint {
+    /// The step in world space, across the ray, from a texel to the next one in x.
+    pub along_x: DVec3,
+    /// The step to the next one in y.
+    pub along_y: DVec3,
+}
+
+impl Footprint {
+    /// The area in square world units.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.along_x.cross(self.along_y).length()
+    }
+
+    /// The longest semi-axis, doubled, of the ellipse that the map makes of a texel's inscribed circle: the side of the
+    /// footprint where it is longest, in world units. It is the larger singular value of (along x, along y).
+    #[must_use]
+    pub fn longest(&self) -> f64 {
+        self.singular_values().0
+    }
+
+    /// The shortest side, the smaller singular value, in world units.
+    #[must_use]
+    pub fn shortest(&self) -> f64 {
+        self.singular_values().1
+    }
+
+    fn singular_values(&self) -> (f64, f64) {
+        // With y turned by 90° in the plane, σ₁ ± σ₂ = |x ∓ turned|.
+        let turned = self.along_x.cross(self.along_y).normalize_or_zero().cross(self.along_y);
+        let (sum, difference) = ((self.along_x - turned).length(), (self.along_x + turned).length());
+        let longest = 0.5 * (sum + difference);
+        // Not half of the difference of the two, which cancels.
+        (longest, if longest > 0.0 { self.area() / longest } else { 0.0 })
+    }
+}
+
+/// A format of depth buffers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum DepthFormat {
+    /// 16-bit unsigned normalised: 65,535 equal steps from 0 to 1.
+    Unorm16,
+    /// 24-bit unsigned normalised: 16,777,215 equal steps from 0 to 1.
+    Unorm24,
+    /// 32-bit float: steps that grow with the value, at most 2⁻²⁴ below 1.
+    Float32,
+}
+
+impl DepthFormat {
+    /// The step from a value in [0, 1] to the next larger one.
+    #[must_use]
+    pub fn step(self, value: f64) -> f64 {
+        match self {
+            Self::Unorm16 => 1.0 / 65_535.0,
+            Self::Unorm24 => 1.0 / 16_777_215.0,
+            Self::Float32 => {
+                let value = value.clamp(0.0, 1.0) as f32;
+                f64::from(value.next_up()) - f64::from(value)
+            }
+        }
+    }
+}
+
+/// The footprint at a point of a texel of a map of `size` texels a side, for a unit ray away from the light.
+pub(crate) fn footprint(rows: &[Plane; 4], ray: DVec3, point: DVec3, size: u32) -> Option<Footprint> {
+    let [x, y, _, w] = rows;
+    let at = w.at(point);
+    if at <= 0.0 || at.is_nan() {
+        return None;
+    }
+    // Gradients of x/w and y/w. Both vanish along the ray, so that two vectors across it invert them.
+    let gradient = |row: &Plane| (row.normal - w.normal * (row.at(point) / at)) / at;
+    let (x, y) = (gradient(x), gradient(y));
+    let (along_x, along_y) = (y.cross(ray), ray.cross(x));
+    // Clip space is two units wide.
+    let texel = 2.0 / f64::from(size) / x.dot(along_x);
+    Some(Footprint { along_x: along_x * texel, along_y: along_y * texel })
+}
+
+/// The distance along a unit ray away from the light that one step of a depth format makes at a point; infinite
+/// outside of the map.
+pub(crate) fn depth_resolution(
+    rows: &[Plane; 4],
+    ray: DVec3,
+    point: DVec3,
+    format: DepthFormat,
+    reversed: bool,
+) -> f64 {
+    let [_, _, z, w] = rows;
+    let at = w.at(point);
+    let depth = z.at(point) / at;
+    let slope = (z.normal - w.normal * depth).dot(ray) / at;
+    let stored = if reversed { 1.0 - depth } else { depth };
+    if at > 0.0 { format.step(stored) / slope } else { f64::INFINITY }
+}

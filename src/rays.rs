@@ -1,0 +1,127 @@
+//! Rays as a plane of their own.
+
+use crate::axis::widest_margin;
+use crate::convex::Plane;
+use crate::focus::Focus;
+use crate::frame;
+use glam::{DVec2, DVec3};
+
+/// A chart of the rays of a light: a plane that each of them meets once.
+///
+/// The lines through l form a projective plane. A covector that vanishes at l is a linear function of `(U, V, 1)` on
+/// this chart, and every single-pass shadow matrix for l is a homography of it (DESIGN section 2). The chart itself is
+/// the uniform map:
+///
+/// ```text
+///     U = u · X / w · X      V = v · X / w · X      w = 1 on points (directional light), or the distance along the
+///                                                   axis from the light
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rays {
+    /// Unit direction away from the light, in the middle of everything visible.
+    pub(crate) axis: DVec3,
+    u_axis: DVec3,
+    v_axis: DVec3,
+    pub(crate) u: Plane,
+    pub(crate) v: Plane,
+    /// w, positive on everything visible.
+    pub(crate) w: Plane,
+    /// Distance along `axis`, from the light or, when it is infinitely far away, from the eye.
+    pub(crate) along: Plane,
+    /// Where `u`, `v` and `along` are zero.
+    origin: DVec3,
+    /// Whether the light is at a position.
+    pub(crate) local: bool,
+}
+
+/// The light stands among what it lights: no plane through it leaves everything visible on one side.
+pub(crate) struct NoAxis;
+
+impl Rays {
+    /// The chart around what is visible.
+    pub(crate) fn new<const N: usize>(
+        focus: &Focus<'_>,
+        visible: impl ExactSizeIterator<Item = DVec3>,
+    ) -> Result<Self, NoAxis> {
+        let view = focus.view();
+        let l = focus.light().homogeneous();
+        let position = focus.light().position();
+        let axis = match position {
+            None => -l.truncate(),
+            Some(position) => {
+                let mut directions = [DVec3::ZERO; N];
+                let len = visible.len().min(N);
+                for (direction, point) in directions.iter_mut().zip(visible) {
+                    *direction = (point - position).try_normalize().ok_or(NoAxis)?;
+                }
+                let (axis, margin) = widest_margin(&directions[..len]).ok_or(NoAxis)?;
+                if margin < Self::MIN_MARGIN {
+                    return Err(NoAxis);
+                }
+                axis
+            }
+        };
+        let (u_axis, v_axis) = frame::across(axis, view.forward(), view.up());
+        let origin = position.unwrap_or(view.eye());
+        let along = Plane::through(axis, origin);
+        Ok(Self {
+            axis,
+            u_axis,
+            v_axis,
+            u: Plane::through(u_axis, origin),
+            v: Plane::through(v_axis, origin),
+            w: if position.is_some() { along } else { Plane::ONE },
+            along,
+            origin,
+            local: position.is_some(),
+        })
+    }
+
+    /// The least cosine of half the opening of a frustum: 89.9°. A light nearer to what is visible than that stands
+    /// among it, as far as a single map is concerned.
+    const MIN_MARGIN: f64 = 1.0 / 512.0;
+
+    /// The ray through a point, and w there.
+    pub(crate) fn through(&self, point: DVec3) -> (DVec2, f64) {
+        let w = self.w.at(point);
+        let across = DVec2::new(self.u.at(point), self.v.at(point));
+        (if self.local { across / w } else { across }, w)
+    }
+
+    /// A covector that vanishes at the light as a function on the chart.
+    pub(crate) fn functional(&self, covector: &Plane) -> Functional {
+        let constant = if self.local { covector.normal.dot(self.axis) } else { covector.at(self.origin) };
+        let slope = DVec2::new(covector.normal.dot(self.u_axis), covector.normal.dot(self.v_axis));
+        Functional { slope, constant }
+    }
+
+    /// A function on the chart as the covector that it is.
+    pub(crate) fn covector(&self, functional: &Functional) -> Plane {
+        self.u * functional.slope.x + self.v * functional.slope.y + self.w * functional.constant
+    }
+
+    /// The world-space direction away from the light of the chart's homogeneous point (`across`, `w`).
+    pub(crate) fn direction(&self, across: DVec2, w: f64) -> DVec3 {
+        self.u_axis * across.x + self.v_axis * across.y + self.axis * w
+    }
+}
+
+/// A linear function of `(U, V, 1)` on the chart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Functional {
+    pub(crate) slope: DVec2,
+    pub(crate) constant: f64,
+}
+
+impl Functional {
+    /// The uniform map's w.
+    pub(crate) const ONE: Self = Self { slope: DVec2::ZERO, constant: 1.0 };
+
+    pub(crate) fn at(&self, ray: DVec2) -> f64 {
+        self.slope.dot(ray) + self.constant
+    }
+
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        Self { slope: self.slope * factor, constant: self.constant * factor }
+    }
+}

@@ -1,0 +1,498 @@
+//! The view V: the camera's frustum, whatever convention its matrices came in.
+
+use crate::clip_space::{ClipSpace, DepthRange, YAxis};
+use crate::convex::{Plane, matrix_from_rows};
+use crate::error::{InputError, Problem, check};
+use glam::{DMat4, DVec2, DVec3, DVec4};
+
+/// Whether lines of sight meet in the eye or run side by side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Lens {
+    /// Lines of sight meet in the eye; the frame is given by slopes, offset per unit of depth.
+    Perspective,
+    /// Lines of sight are parallel; the frame is given by offsets in world units.
+    Orthographic,
+}
+
+/// A camera: an eye, three axes, a frame and a depth range.
+///
+/// Every projection matrix the constructors accept is brought to this one form, so that equivalent cameras, whatever
+/// their handedness, their direction of z or y and their clip volume, give the same view.
+///
+/// # Guarantees
+///
+/// `right`, `up` and `forward` are orthonormal (right- or left-handed); the frame is not empty; `near < far`; a
+/// perspective view has `near > 0` and may have `far = ∞`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "stored::View"))]
+pub struct View {
+    eye: DVec3,
+    right: DVec3,
+    up: DVec3,
+    forward: DVec3,
+    lens: Lens,
+    /// The frame's lower left and upper right corners: slopes of a perspective lens, offsets of an orthographic one.
+    frame_min: DVec2,
+    frame_max: DVec2,
+    near: f64,
+    #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
+    far: f64,
+}
+
+impl View {
+    /// A perspective camera with a symmetric frame.
+    ///
+    /// `forward` and `up` need not be unit length nor at right angles; `fov_y` is the full vertical field of view in
+    /// radians, `aspect` is width over height, `near` and `far` are depths along `forward` in world units; `far` may be
+    /// infinite.
+    ///
+    /// # Errors
+    ///
+    /// Names the field that is not finite, without direction, parallel to the other direction, outside (0, π), not
+    /// positive, or out of order.
+    pub fn perspective(
+        eye: impl Into<DVec3>,
+        forward: impl Into<DVec3>,
+        up: impl Into<DVec3>,
+        fov_y: f64,
+        aspect: f64,
+        near: f64,
+        far: f64,
+    ) -> Result<Self, InputError> {
+        if !(fov_y > 0.0 && fov_y < core::f64::consts::PI) {
+            return check::fail("fov_y", Problem::AngleOutOfRange);
+        }
+        let half = DVec2::from_angle(0.5 * fov_y);
+        let slope = check::distance("fov_y", half.y / half.x)?;
+        let slopes = DVec2::new(check::distance("aspect", slope * check::distance("aspect", aspect)?)?, slope);
+        let axes = Axes::looking(forward.into(), up.into())?;
+        Self::checked(eye.into(), axes, Lens::Perspective, -slopes, slopes, near, far)
+    }
+
+    /// An orthographic camera with a symmetric frame.
+    ///
+    /// `half_height` is half the height of what is seen, in world units; `aspect` is width over height; `near` and
+    /// `far` are depths along `forward` from `eye`, either sign, in world units.
+    ///
+    /// # Errors
+    ///
+    /// Names the field that is not finite, without direction, parallel to the other direction, not positive, or out of
+    /// order.
+    pub fn orthographic(
+        eye: impl Into<DVec3>,
+        forward: impl Into<DVec3>,
+        up: impl Into<DVec3>,
+        half_height: f64,
+        aspect: f64,
+        near: f64,
+        far: f64,
+    ) -> Result<Self, InputError> {
+        let height = check::distance("half_height", half_height)?;
+        let half = DVec2::new(check::distance("aspect", height * check::distance("aspect", aspect)?)?, height);
+        let axes = Axes::looking(forward.into(), up.into())?;
+        Self::checked(eye.into(), axes, Lens::Orthographic, -half, half, near, far)
+    }
+
+    /// A camera from the two matrices a renderer has: world → eye and eye → clip, for column vectors (`clip_from_eye ·
+    /// eye_from_world · x`).
+    ///
+    /// `eye_from_world` may mirror and may scale uniformly. `clip_from_eye` may be perspective or orthographic, off
+    /// axis, with the eye looking along either end of its z axis, with an infinite far plane, and in any
+    /// [`ClipSpace`]; its texture origin plays no part.
+    ///
+    /// # Errors
+    ///
+    /// Names the matrix that is not finite, not rigid, or no projection; `"near"` or `"far"` when the depth range that
+    /// `clip_from_eye` encodes is not positive, which is also what a matrix read in the wrong convention looks like.
+    pub fn from_matrices(
+        eye_from_world: impl Into<DMat4>,
+        clip_from_eye: impl Into<DMat4>,
+        clip: ClipSpace,
+    ) -> Result<Self, InputError> {
+        let (eye_from_world, clip_from_eye) = (eye_from_world.into(), clip_from_eye.into());
+        let axes = Axes::of(&eye_from_world)?;
+        let frame = Frame::of(&clip_from_eye, clip)?;
+        let forward = axes.backward * frame.forward_sign;
+        let scale = axes.world_per_eye;
+        let (unit, depth) = match frame.lens {
+            Lens::Perspective => (1.0, scale),
+            Lens::Orthographic => (scale, scale),
+        };
+        let axes_found = Axes { right: axes.right, up: axes.up, forward };
+        let (near, far) = (frame.near * depth, frame.far * depth);
+        Self::checked(axes.eye, axes_found, frame.lens, frame.min * unit, frame.max * unit, near, far)
+    }
+
+    /// The same view between two depths, which must lie within its own: what a cascade covers, or what a read-back of
+    /// the depth buffer found to be visible (PSM §6).
+    ///
+    /// # Errors
+    ///
+    /// Names `"near"` or `"far"` when it is not finite, lies outside the view's own depth range, or they are out of
+    /// order. `far` may be infinite where the view's own is.
+    pub fn narrowed(&self, near: f64, far: f64) -> Result<Self, InputError> {
+        if near < self.near {
+            return check::fail("near", Problem::TooSmall);
+        }
+        if far > self.far {
+            return check::fail("far", Problem::TooLarge);
+        }
+        let axes = Axes { right: self.right, up: self.up, forward: self.forward };
+        Self::checked(self.eye, axes, self.lens, self.frame_min, self.frame_max, near, far)
+    }
+
+    fn checked(
+        eye: DVec3,
+        axes: Axes,
+        lens: Lens,
+        frame_min: DVec2,
+        frame_max: DVec2,
+        near: f64,
+        far: f64,
+    ) -> Result<Self, InputError> {
+        let eye = check::point("eye", eye)?;
+        let corner = check::point("frame", frame_min.extend(0.0)).and(check::point("frame", frame_max.extend(0.0)));
+        corner?;
+        if !(frame_min.x < frame_max.x && frame_min.y < frame_max.y) {
+            return check::fail("frame", Problem::OutOfOrder);
+        }
+        let (near, far) = match lens {
+            Lens::Perspective => (check::distance("near", near)?, check::distance_or_infinity("far", far)?),
+            Lens::Orthographic => (check::coordinate("near", near)?, check::coordinate("far", far)?),
+        };
+        if near >= far {
+            return check::fail("far", Problem::OutOfOrder);
+        }
+        let Axes { right, up, forward } = axes;
+        Ok(Self { eye, right, up, forward, lens, frame_min, frame_max, near, far })
+    }
+
+    /// Where the camera is, in world space.
+    #[must_use]
+    pub const fn eye(&self) -> DVec3 {
+        self.eye
+    }
+
+    /// The unit axis to the right of the image, in world space.
+    #[must_use]
+    pub const fn right(&self) -> DVec3 {
+        self.right
+    }
+
+    /// The unit axis to the top of the image, in world space.
+    #[must_use]
+    pub const fn up(&self) -> DVec3 {
+        self.up
+    }
+
+    /// The unit axis that the camera looks along, in world space.
+    #[must_use]
+    pub const fn forward(&self) -> DVec3 {
+        self.forward
+    }
+
+    /// Perspective or orthographic.
+    #[must_use]
+    pub const fn lens(&self) -> Lens {
+        self.lens
+    }
+
+    /// Depth of the near plane along [`Self::forward`], in world units.
+    #[must_use]
+    pub const fn near(&self) -> f64 {
+        self.near
+    }
+
+    /// Depth of the far plane along [`Self::forward`], in world units; may be infinite.
+    #[must_use]
+    pub const fn far(&self) -> f64 {
+        self.far
+    }
+
+    /// Depth of a point before the eye, in world units.
+    #[must_use]
+    pub fn depth(&self, point: DVec3) -> f64 {
+        self.forward.dot(point - self.eye)
+    }
+
+    /// Half the height, in world units, of what the image shows at a depth.
+    #[must_use]
+    pub fn half_height(&self, depth: f64) -> f64 {
+        let half = 0.5 * (self.frame_max.y - self.frame_min.y);
+        match self.lens {
+            Lens::Perspective => half * depth,
+            Lens::Orthographic => half,
+        }
+    }
+
+    /// The planes of V in world space, inside ≥ 0: left, right, bottom, top, near and, unless it is infinite, far.
+    #[must_use]
+    pub fn planes(&self) -> FrustumPlanes {
+        let (depth, one) = (self.depth_row(), self.frame_unit());
+        let (x, y) = (Plane::through(self.right, self.eye), Plane::through(self.up, self.eye));
+        let near = depth - Plane::ONE * self.near;
+        let far = if self.far.is_finite() { Plane::ONE * self.far - depth } else { Plane::ONE };
+        FrustumPlanes {
+            planes: [
+                x - one * self.frame_min.x,
+                one * self.frame_max.x - x,
+                y - one * self.frame_min.y,
+                one * self.frame_max.y - y,
+                near,
+                far,
+            ],
+            len: if self.far.is_finite() { 6 } else { 5 },
+        }
+    }
+
+    /// The corners of V in world space: near then far, each left-bottom, right-bottom, left-top, right-top; `None` when
+    /// the far plane is infinite.
+    #[must_use]
+    pub fn corners(&self) -> Option<[DVec3; 8]> {
+        self.far.is_finite().then(|| {
+            core::array::from_fn(|corner| {
+                let depth = if corner < 4 { self.near } else { self.far };
+                let unit = match self.lens {
+                    Lens::Perspective => depth,
+                    Lens::Orthographic => 1.0,
+                };
+                let x = if corner & 1 == 0 { self.frame_min.x } else { self.frame_max.x };
+                let y = if corner & 2 == 0 { self.frame_min.y } else { self.frame_max.y };
+                self.eye + self.forward * depth + self.right * (x * unit) + self.up * (y * unit)
+            })
+        })
+    }
+
+    /// The camera's 4×4, world → clip, with x, y and z in [−1, 1] whatever convention the view came in.
+    #[must_use]
+    pub fn clip_from_world(&self) -> DMat4 {
+        matrix_from_rows(self.rows(self.near, self.far))
+    }
+
+    /// Depth before the eye as a covector.
+    pub(crate) fn depth_row(&self) -> Plane {
+        Plane::through(self.forward, self.eye)
+    }
+
+    /// What the frame's numbers are multiples of: depth for slopes, 1 for offsets. It is also the row C₃ of the
+    /// camera's matrix.
+    fn frame_unit(&self) -> Plane {
+        match self.lens {
+            Lens::Perspective => self.depth_row(),
+            Lens::Orthographic => Plane::ONE,
+        }
+    }
+
+    /// The rows C₀ C₁ C₂ C₃ of the camera's matrix (DESIGN section 2) with z running from −1 at depth `near` to 1 at
+    /// depth `far`.
+    pub(crate) fn rows(&self, near: f64, far: f64) -> [Plane; 4] {
+        let centre = (self.frame_min + self.frame_max) * 0.5;
+        let half = (self.frame_max - self.frame_min) * 0.5;
+        let unit = self.frame_unit();
+        let row = |axis: DVec3, centre: f64, half: f64| {
+            (Plane::through(axis, self.eye) - unit * centre) * half.recip()
+        };
+        let depth = self.depth_row();
+        let z = match self.lens {
+            // Divided through by `far`, so that an infinite one is no special case.
+            Lens::Perspective => {
+                let ratio = near / far;
+                (depth * (1.0 + ratio) - Plane::ONE * (2.0 * near)) * (1.0 - ratio).recip()
+            }
+            Lens::Orthographic => (depth * 2.0 - Plane::ONE * (far + near)) * (far - near).recip(),
+        };
+        [row(self.right, centre.x, half.x), row(self.up, centre.y, half.y), z, unit]
+    }
+
+    /// The same view with the eye moved back along the view axis by `shift` world units: depths grow by as much, the
+    /// frame keeps its slopes.
+    pub(crate) fn moved_back(&self, shift: f64) -> Self {
+        Self { eye: self.eye - self.forward * shift, ..*self }
+    }
+}
+
+/// Up to six planes, as [`View::planes`] returns them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrustumPlanes {
+    planes: [Plane; 6],
+    len: usize,
+}
+
+impl core::ops::Deref for FrustumPlanes {
+    type Target = [Plane];
+    fn deref(&self) -> &[Plane] {
+        &self.planes[..self.len]
+    }
+}
+
+/// The axes of the image, orthonormal.
+struct Axes {
+    right: DVec3,
+    up: DVec3,
+    forward: DVec3,
+}
+
+impl Axes {
+    fn looking(forward: DVec3, up: DVec3) -> Result<Self, InputError> {
+        let forward = check::direction("forward", forward)?;
+        let up = check::direction("up", up)?;
+        let right = forward.cross(up);
+        // Below this the sine of the angle is mostly rounding.
+        if right.length() < 1e-7 {
+            return check::fail("up", Problem::Parallel);
+        }
+        let right = right.normalize();
+        Ok(Self { right, up: right.cross(forward), forward })
+    }
+
+    /// The world-space axes and position of the eye that a view matrix encodes.
+    fn of(eye_from_world: &DMat4) -> Result<EyeAxes, InputError> {
+        const FIELD: &str = "eye_from_world";
+        if !eye_from_world.is_finite() {
+            return check::fail(FIELD, Problem::NotFinite);
+        }
+        let rows = eye_from_world.transpose();
+        let [right, up, backward] = [rows.x_axis, rows.y_axis, rows.z_axis].map(DVec4::truncate);
+        let scale = backward.length();
+        // Matrices arrive rounded to f32 and after long chains of products, so exactness cannot be asked for.
+        let tolerance = 1e-3 * scale;
+        let square = |a: DVec3, b: DVec3| a.dot(b).abs() <= tolerance * scale;
+        let rigid = rows.w_axis == DVec4::W
+            && scale > 0.0
+            && (right.length() - scale).abs() <= tolerance
+            && (up.length() - scale).abs() <= tolerance
+            && square(right, up)
+            && square(up, backward)
+            && square(backward, right);
+        if !rigid {
+            return check::fail(FIELD, Problem::NotRigid);
+        }
+        // The eye is the point that the matrix takes to the origin: three planes through it, met by Cramer's rule.
+        let translation = DVec3::new(rows.x_axis.w, rows.y_axis.w, rows.z_axis.w);
+        let determinant = right.dot(up.cross(backward));
+        let eye = -(up.cross(backward) * translation.x
+            + backward.cross(right) * translation.y
+            + right.cross(up) * translation.z)
+            / determinant;
+        // Orthonormal to the last bit: the view axis as given, the others square to it, on the side they were on.
+        let backward = backward / scale;
+        let up = (up - backward * up.dot(backward)).normalize();
+        let right = up.cross(backward) * determinant.signum();
+        Ok(EyeAxes { eye, right, up, backward, world_per_eye: scale.recip() })
+    }
+}
+
+/// What a view matrix encodes; `backward` is the world-space image of the eye's +z.
+struct EyeAxes {
+    eye: DVec3,
+    right: DVec3,
+    up: DVec3,
+    backward: DVec3,
+    world_per_eye: f64,
+}
+
+/// What a projection matrix encodes, in eye units.
+struct Frame {
+    lens: Lens,
+    /// The eye looks along this end of its z axis.
+    forward_sign: f64,
+    min: DVec2,
+    max: DVec2,
+    near: f64,
+    far: f64,
+}
+
+impl Frame {
+    fn of(clip_from_eye: &DMat4, clip: ClipSpace) -> Result<Self, InputError> {
+        const FIELD: &str = "clip_from_eye";
+        if !clip_from_eye.is_finite() {
+            return check::fail(FIELD, Problem::NotFinite);
+        }
+        let rows = clip_from_eye.transpose();
+        let (mut x, mut y, mut z, mut w) = (rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis);
+        // Depth from −1 to 1 and y up, whatever it was.
+        z = match clip.depth {
+            DepthRange::ZeroToOne => z * 2.0 - w,
+            DepthRange::ZeroToOneReversed => w - z * 2.0,
+            DepthRange::NegativeOneToOne => z,
+            DepthRange::NegativeOneToOneReversed => -z,
+        };
+        if clip.y == YAxis::Down {
+            y = -y;
+        }
+        let perspective = w.x == 0.0 && w.y == 0.0 && w.w == 0.0 && w.z != 0.0;
+        let orthographic = w.x == 0.0 && w.y == 0.0 && w.z == 0.0 && w.w > 0.0;
+        let facing = x.y == 0.0 && y.x == 0.0 && z.x == 0.0 && z.y == 0.0;
+        if !(perspective || orthographic) || !facing {
+            return check::fail(FIELD, Problem::NotAProjection);
+        }
+        let unit = if perspective { w.z.abs() } else { w.w };
+        (x, y, z, w) = (x / unit, y / unit, z / unit, w / unit);
+        let (lens, forward_sign, centre, near, far);
+        if perspective {
+            // x_clip / w = (x.x · x_eye + x.z · z_eye) / depth, with z_eye = forward_sign · depth and depth = w.
+            if x.w != 0.0 || y.w != 0.0 {
+                return check::fail(FIELD, Problem::NotAProjection);
+            }
+            lens = Lens::Perspective;
+            forward_sign = w.z;
+            centre = DVec2::new(x.z, y.z) * forward_sign;
+            // z_clip / w = slope + z.w / depth, −1 at near and 1 at far; it may reach 1 at infinity only, or, by a
+            // rounding, not even there.
+            let slope = z.z * forward_sign;
+            near = z.w / (-1.0 - slope);
+            far = if z.w < 0.0 && slope <= 1.0 { f64::INFINITY } else { z.w / (1.0 - slope) };
+        } else {
+            if x.z != 0.0 || y.z != 0.0 {
+                return check::fail(FIELD, Problem::NotAProjection);
+            }
+            lens = Lens::Orthographic;
+            forward_sign = if z.z < 0.0 { -1.0 } else { 1.0 };
+            centre = DVec2::new(x.w, y.w);
+            let slope = z.z * forward_sign;
+            near = (-1.0 - z.w) / slope;
+            far = (1.0 - z.w) / slope;
+        }
+        // (scale · value + centre) = ±1; a negative scale mirrors, which leaves the same frame.
+        let edge = |scale: f64, centre: f64| {
+            let (a, b) = ((-1.0 - centre) / scale, (1.0 - centre) / scale);
+            (a.min(b), a.max(b))
+        };
+        let ((left, right), (bottom, top)) = (edge(x.x, centre.x), edge(y.y, centre.y));
+        Ok(Self { lens, forward_sign, min: DVec2::new(left, bottom), max: DVec2::new(right, top), near, far })
+    }
+}
+
+/// A view as it is stored: the same numbers, checked again when they are read.
+#[cfg(feature = "serde")]
+mod stored {
+    use super::{Axes, DVec2, DVec3, InputError, Lens, Problem, check};
+
+    #[derive(serde::Deserialize)]
+    pub(super) struct View {
+        eye: DVec3,
+        right: DVec3,
+        up: DVec3,
+        forward: DVec3,
+        lens: Lens,
+        frame_min: DVec2,
+        frame_max: DVec2,
+        near: f64,
+        #[serde(with = "crate::infinity")]
+        far: f64,
+    }
+
+    impl TryFrom<View> for super::View {
+        type Error = InputError;
+        fn try_from(view: View) -> Result<Self, InputError> {
+            let View { eye, right, up, forward, lens, frame_min, frame_max, near, far } = view;
+            let units = [right, up, forward].iter().all(|axis| axis.is_normalized());
+            let square = [right.dot(up), up.dot(forward), forward.dot(right)].iter().all(|dot| dot.abs() < 1e-9);
+            if !(units && square) {
+                return check::fail("forward", Problem::NotRigid);
+            }
+            Self::checked(eye, Axes { right, up, forward }, lens, frame_min, frame_max, near, far)
+        }
+    }
+}
