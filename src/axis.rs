@@ -12,7 +12,7 @@ pub(crate) fn widest_margin(directions: &[DVec3]) -> Option<(DVec3, f64)> {
     /// Each step adds one direction and shortens the distance to the hull, so that the steps end by themselves. In
     /// the many thousands of cases tested there were at most a dozen; this only says that there is an end.
     const MAX_STEPS: usize = 64;
-    let mut support = Support { points: [*directions.first()?; 4], len: 1 };
+    let mut support = Support { points: [*directions.first()?; 3], len: 1 };
     let mut nearest = support.points[0];
     for _ in 0..MAX_STEPS {
         let (deepest, depth) = deepest(directions, nearest)?;
@@ -33,14 +33,20 @@ pub(crate) fn widest_margin(directions: &[DVec3]) -> Option<(DVec3, f64)> {
 
 /// The direction least along `axis`, and how far along it is.
 fn deepest(directions: &[DVec3], axis: DVec3) -> Option<(DVec3, f64)> {
-    let along = directions.iter().map(|&direction| (direction, direction.dot(axis)));
-    along.reduce(|a, b| if b.1 < a.1 { b } else { a })
+    let (mut at, mut depth) = (0, f64::INFINITY);
+    for (index, direction) in directions.iter().enumerate() {
+        let along = direction.dot(axis);
+        if along < depth {
+            (at, depth) = (index, along);
+        }
+    }
+    directions.get(at).map(|&direction| (direction, depth))
 }
 
-/// The corners, at most three, of the face of the hull that is nearest to the origin so far; room for one more.
+/// The corners, at most three, of the face of the hull that is nearest to the origin so far.
 #[derive(Clone, Copy)]
 struct Support {
-    points: [DVec3; 4],
+    points: [DVec3; 3],
     len: usize,
 }
 
@@ -51,9 +57,9 @@ impl Support {
 
     /// The nearest face among the point itself, the edges and the triangles that it spans with the corners.
     fn with(&self, point: DVec3) -> (Self, DVec3) {
-        let alone = Self { points: [point; 4], len: 1 };
+        let alone = Self { points: [point; 3], len: 1 };
         let mut best = (alone, point);
-        let mut consider = |points: [DVec3; 4], len: usize, nearest: Option<DVec3>| {
+        let mut consider = |points: [DVec3; 3], len: usize, nearest: Option<DVec3>| {
             if let Some(nearest) = nearest
                 && nearest.length_squared() < best.1.length_squared()
             {
@@ -62,9 +68,9 @@ impl Support {
         };
         let corners = &self.points[..self.len];
         for (index, &a) in corners.iter().enumerate() {
-            consider([point, a, a, a], 2, nearest_of_edge(point, a));
+            consider([point, a, a], 2, nearest_of_edge(point, a));
             for &b in &corners[index + 1..] {
-                consider([point, a, b, b], 3, nearest_of_triangle(point, a, b));
+                consider([point, a, b], 3, nearest_of_triangle(point, a, b));
             }
         }
         best

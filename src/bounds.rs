@@ -2,6 +2,18 @@
 
 use glam::DVec2;
 
+/// The smaller of two numbers, neither of them NaN: one instruction, where `f64::min` has to look for NaN.
+#[inline]
+pub(crate) fn least(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The larger of two numbers, neither of them NaN.
+#[inline]
+pub(crate) fn most(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
 /// An interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Interval {
@@ -10,12 +22,13 @@ pub(crate) struct Interval {
 }
 
 impl Interval {
-    /// The least interval around values; upside down for none.
-    pub(crate) fn around(values: impl Iterator<Item = f64>) -> Self {
-        values.fold(Self { min: f64::INFINITY, max: f64::NEG_INFINITY }, |interval, value| Self {
-            min: interval.min.min(value),
-            max: interval.max.max(value),
-        })
+    /// The interval around nothing, upside down.
+    pub(crate) const EMPTY: Self = Self { min: f64::INFINITY, max: f64::NEG_INFINITY };
+
+    #[inline]
+    pub(crate) fn include(&mut self, value: f64) {
+        self.min = least(self.min, value);
+        self.max = most(self.max, value);
     }
 
     pub(crate) fn middle(&self) -> f64 {
@@ -32,11 +45,9 @@ pub(crate) struct Rectangle {
 }
 
 impl Rectangle {
-    /// The least rectangle around points; there must be one.
-    pub(crate) fn around(points: impl Iterator<Item = DVec2>) -> Self {
-        let (min, max) = points.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), point| {
-            (min.min(point), max.max(point))
-        });
+    /// The rectangle over two intervals.
+    pub(crate) fn over(x: &Interval, y: &Interval) -> Self {
+        let (min, max) = (DVec2::new(x.min, y.min), DVec2::new(x.max, y.max));
         Self { centre: (min + max) * 0.5, half: (max - min) * 0.5 }
     }
 

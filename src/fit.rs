@@ -1,8 +1,8 @@
 //! The fit: window, depth row and matrix from a focus and a warp.
 
-use crate::bounds::{Interval, Rectangle};
-use crate::convex::Body;
-use crate::focus::{Focus, VIEW_BITS, clip_all};
+use crate::bounds::{Interval, Rectangle, least, most};
+use crate::convex::Polyhedron;
+use crate::focus::{Focus, VIEW_IDS, clip_all};
 use crate::homography::Homography;
 use crate::light::Light;
 use crate::map::{DepthSpan, Map, Window};
@@ -101,37 +101,37 @@ impl Focus<'_> {
     /// Fits one shadow map.
     #[must_use]
     pub fn fit(&self, settings: &Settings) -> Outcome {
-        let (Some(receivers), Some(casters)) = (self.receivers, self.casters) else {
-            return Outcome::Empty(match self.receivers {
-                Some(_) if !self.visible().is_empty() => Empty::NothingCasts,
-                _ => Empty::NothingVisible,
-            });
+        // One body after another in the same memory: H where the camera is moved back by it, R, and what can cast
+        // into the window.
+        let mut body = Polyhedron::EMPTY;
+        let depths = match settings.shift() {
+            Shift::None => None,
+            Shift::Back(form) => {
+                self.cut_body(&mut body, form, |_, _| ());
+                Some(VirtualCamera::depths(self.view(), body.positions()))
+            }
         };
-        match (receivers, casters) {
-            // A box, a light's six planes and a hull's ten have at most 40 vertices, and a cut of their polyhedron at
-            // most 21 new ones beside the 38 old.
-            (Region::Box { .. }, Region::Box { .. }) => fit_polyhedra::<64>(self, &casters, settings),
-            _ => fit_polyhedra::<{ Body::MAX_VERTICES }>(self, &casters, settings),
+        self.cut_visible(&mut body, |_, _| ());
+        if body.is_empty() {
+            return Outcome::Empty(Empty::NothingVisible);
+        }
+        match &self.casters {
+            Some(casters) => fit_visible(self, &mut body, casters, depths, settings),
+            None => Outcome::Empty(Empty::NothingCasts),
         }
     }
 }
 
-fn fit_polyhedra<const N: usize>(focus: &Focus<'_>, casters: &Region<'_>, settings: &Settings) -> Outcome {
+fn fit_visible(
+    focus: &Focus<'_>,
+    body: &mut Polyhedron,
+    casters: &Region<'_>,
+    depths: Option<Interval>,
+    settings: &Settings,
+) -> Outcome {
+    let visible = &*body;
     let (view, light) = (focus.view(), focus.light());
-    let visible = focus.visible_polyhedron::<N>(|_, _| ());
-    if visible.is_empty() {
-        return Outcome::Empty(Empty::NothingVisible);
-    }
-    let camera = match settings.shift() {
-        Shift::None => VirtualCamera::own(view, visible.positions()),
-        Shift::Back(form) => {
-            VirtualCamera::moved_back(view, focus.body_polyhedron::<N>(form, |_, _| ()).positions())
-        }
-    };
-    let Some(camera) = camera else {
-        return Outcome::Empty(Empty::NothingCasts);
-    };
-    let Ok(rays) = Rays::new::<N>(focus, visible.positions()) else {
+    let Ok(rays) = Rays::new(focus, visible.positions()) else {
         return Outcome::Surrounded(Surrounded);
     };
     let origin = match settings.origin() {
@@ -139,8 +139,25 @@ fn fit_polyhedra<const N: usize>(focus: &Focus<'_>, casters: &Region<'_>, settin
         Origin::Eye => view.eye(),
     };
 
-    // The frame: w, and the ray that u and v are measured from, the middle of the uniform map.
-    let middle = Rectangle::around(visible.positions().map(|point| rays.through(point).0)).centre;
+    // What is visible, as the uniform map and as the camera see it.
+    let (mut u, mut v, mut along, mut eye_depth) =
+        (Interval::EMPTY, Interval::EMPTY, Interval::EMPTY, Interval::EMPTY);
+    for point in visible.positions() {
+        let (ray, _) = rays.through(point);
+        u.include(ray.x);
+        v.include(ray.y);
+        along.include(rays.along.at(point));
+        eye_depth.include(view.depth(point));
+    }
+    let middle = Rectangle::over(&u, &v).centre;
+
+    // The warp.
+    let camera = match depths {
+        None => VirtualCamera::own(view, &eye_depth),
+        // Without any H nothing casts.
+        Some(depths) if depths.min > depths.max => return Outcome::Empty(Empty::NothingCasts),
+        Some(depths) => VirtualCamera::moved_back(view, &depths),
+    };
     let (warp, weakening) = match settings.warp() {
         Warp::Uniform => (Functional::ONE, 1.0),
         Warp::Perspective => {
@@ -148,40 +165,59 @@ fn fit_polyhedra<const N: usize>(focus: &Focus<'_>, casters: &Region<'_>, settin
             warp::perspective(&camera.rows(view), light.homogeneous(), &visible)
         }
     };
-    let along = Interval::around(visible.positions().map(|point| rays.along.at(point)));
-    let mut map = Homography::new(&rays, middle, warp, along.middle());
+    let map = Homography::new(&rays, middle, warp, along.middle());
 
     // The window: what R covers. Nothing else in hull(R, l) can widen it.
-    let window = Rectangle::around(visible.positions().map(|point| map.uv(point)));
-    let bordered = window.with_half(window.half / settings.inner());
-    map.cut(&rays, &bordered, light.near());
+    let (mut x, mut y, mut depth) = (Interval::EMPTY, Interval::EMPTY, Interval::EMPTY);
+    let (mut c, mut ratio, mut seen) = (Interval::EMPTY, Interval::EMPTY, 0.0);
+    let mut rounding = Rounding::new(&map, origin);
+    for point in visible.positions() {
+        let values = map.at(point);
+        let one = values / values.w;
+        x.include(one.x);
+        y.include(one.y);
+        depth.include(one.z);
+        c.include(values.w);
+        let w = rays.w.at(point);
+        ratio.include(values.w / w);
+        // Points nearer to the light than its near distance need not be right.
+        if w >= rays.least_w {
+            seen = most(seen, view.half_height(view.depth(point)) / values.w);
+            rounding.include(point, values.w);
+        }
+    }
+    let window = Rectangle::over(&x, &y);
 
     // The depth range: from the first caster in the window, its border included, to the last of what is visible.
     // H alone would do for the texels that R covers, but a filter reads those around them too.
-    let extent = casters.extent();
-    let mut casting = focus.lit_polyhedron::<N>(casters, extent, |_, _| ());
-    clip_all(&mut casting, &map.planes(&bordered), VIEW_BITS, extent, &mut |_, _| ());
-    let depth = Interval {
-        min: Interval::around(casting.positions().map(|point| map.depth(point))).min,
-        max: Interval::around(visible.positions().map(|point| map.depth(point))).max,
-    };
+    let bordered = window.with_half(window.half / settings.inner());
+    let least_c = map.least_c(&rays, &bordered, light.near());
+    let casting = body;
+    let extent = focus.cut_lit(casting, casters, |_, _| ());
+    let planes = map.planes(&bordered, least_c);
+    // No point that a directional light reaches has less than the least c.
+    let planes = if rays.local { &planes[..] } else { &planes[..4] };
+    clip_all(casting, planes, VIEW_IDS, extent, |_, _| ());
+    depth.min = f64::INFINITY;
+    for point in casting.positions() {
+        let values = map.at(point);
+        // But for rounding c would never be less.
+        let c = most(values.w, 0.5 * least_c);
+        depth.min = least(depth.min, values.z / c);
+        rounding.include(point, c);
+    }
     // Without any casters the least depth is infinite.
     if depth.min > depth.max {
         return Outcome::Empty(Empty::NothingCasts);
     }
 
-    let points = visible.positions().chain(casting.positions());
-    let rounding = Rounding::over(points, &map, &window, &depth, origin);
-    let c = Interval::around(visible.positions().map(|point| map.c_at(point)));
-    let seen = visible.positions().map(|point| view.half_height(view.depth(point)) / map.c_at(point));
-    let least = LEAST_PART * Interval::around(seen).max;
-    let half = rounding.padded_window(window.half, settings.inner(), settings.map_size(), least);
+    let smallest = LEAST_PART * seen;
+    let half = rounding.padded_window(&window, settings.inner(), settings.map_size(), smallest);
     let padded = window.with_half(half);
-    let padded_depth = rounding.padded_depth(&depth, least);
-    let ratio = Interval::around(visible.positions().map(|point| map.c_at(point) / rays.w.at(point)));
+    let padded_depth = rounding.padded_depth(&depth, smallest);
     Outcome::Map(Map {
         // w is at most 1 on what is visible, whatever the units.
-        rows: map.rows(&padded, &padded_depth, c.max.recip()),
+        rows: map.rows_to(&padded, &padded_depth, c.max.recip()),
         view: *view,
         light: *light,
         settings: *settings,

@@ -1,6 +1,6 @@
 //! The focus body H: every point that must appear in the shadow map.
 
-use crate::convex::{Bits, Body, Plane, PlaneSet, Polyhedron};
+use crate::convex::{Bits, Body, Plane, PlaneId, Polyhedron};
 use crate::light::{Light, LightPlanes};
 use crate::scene::{Aabb, Bounds, Region, Scene};
 use crate::view::{FrustumPlanes, View};
@@ -48,10 +48,10 @@ pub struct Focus<'a> {
     separate: bool,
 }
 
-/// The bits of L's planes begin here …
-const LIGHT_BITS: u32 = Region::BITS;
-/// … and those of V or of a hull here.
-pub(crate) const VIEW_BITS: u32 = LIGHT_BITS + Light::MAX_PLANES as u32;
+/// The names of L's planes begin here …
+const LIGHT_IDS: PlaneId = Region::IDS;
+/// … and those of V, of a hull, or of a window here.
+pub(crate) const VIEW_IDS: PlaneId = LIGHT_IDS + Light::MAX_PLANES as PlaneId;
 
 impl<'a> Focus<'a> {
     /// Brings a view, a light and a scene together.
@@ -104,9 +104,9 @@ impl<'a> Focus<'a> {
     /// `R = V ∩ S ∩ L`: what is visible and can be lit.
     #[must_use]
     pub fn visible(&self) -> Body {
-        let mut planes = [Plane::ONE; 64];
-        let polyhedron = self.visible_polyhedron(|plane, bit| planes[bit.trailing_zeros() as usize] = plane);
-        Body::new(&polyhedron, planes)
+        let (mut body, mut planes) = (Polyhedron::EMPTY, [Plane::ONE; Polyhedron::MAX_PLANES]);
+        self.cut_visible(&mut body, |plane, id| planes[usize::from(id)] = plane);
+        Body::new(&body, planes)
     }
 
     /// The focus body in one of its forms.
@@ -115,73 +115,67 @@ impl<'a> Focus<'a> {
     /// visible.
     #[must_use]
     pub fn body(&self, form: Form) -> Body {
-        let mut planes = [Plane::ONE; 64];
-        let polyhedron = self.body_polyhedron(form, |plane, bit| planes[bit.trailing_zeros() as usize] = plane);
-        Body::new(&polyhedron, planes)
+        let (mut body, mut planes) = (Polyhedron::EMPTY, [Plane::ONE; Polyhedron::MAX_PLANES]);
+        self.cut_body(&mut body, form, |plane, id| planes[usize::from(id)] = plane);
+        Body::new(&body, planes)
     }
 
-    /// R, telling `each` which planes made it.
-    pub(crate) fn visible_polyhedron<const N: usize>(
-        &self,
-        mut each: impl FnMut(Plane, PlaneSet),
-    ) -> Polyhedron<N> {
-        let Some(region) = self.receivers else { return Polyhedron::from_vertices(&[]) };
-        let extent = region.extent();
-        let mut body = self.lit_polyhedron(&region, extent, &mut each);
-        clip_all(&mut body, &self.view_planes, VIEW_BITS, extent, &mut each);
-        body
+    /// Makes R of any body, telling `each` which planes bound it.
+    pub(crate) fn cut_visible(&self, body: &mut Polyhedron, mut each: impl FnMut(Plane, PlaneId)) {
+        body.clear();
+        if let Some(region) = &self.receivers {
+            let extent = self.cut_lit(body, region, &mut each);
+            clip_all(body, &self.view_planes, VIEW_IDS, extent, &mut each);
+        }
     }
 
-    /// H, telling `each` which planes made it.
-    pub(crate) fn body_polyhedron<const N: usize>(
-        &self,
-        form: Form,
-        mut each: impl FnMut(Plane, PlaneSet),
-    ) -> Polyhedron<N> {
+    /// Makes H of any body, telling `each` which planes bound it.
+    pub(crate) fn cut_body(&self, body: &mut Polyhedron, form: Form, mut each: impl FnMut(Plane, PlaneId)) {
+        body.clear();
         let hull = match form {
-            Form::Paper => PlaneList::hull_of_frustum(&self.view_planes, self.light.homogeneous()),
+            Form::Paper => Some(PlaneList::hull_of_frustum(&self.view_planes, self.light.homogeneous())),
             Form::Tight => self.hull_of_visible(),
         };
-        let (Some(region), Some(hull)) = (self.casters, hull) else { return Polyhedron::from_vertices(&[]) };
+        if let (Some(region), Some(hull)) = (&self.casters, hull) {
+            let extent = self.cut_lit(body, region, &mut each);
+            clip_all(body, &hull, VIEW_IDS, extent, &mut each);
+        }
+    }
+
+    /// Makes S ∩ L of any body. Returns the largest absolute coordinates in S.
+    pub(crate) fn cut_lit(
+        &self,
+        body: &mut Polyhedron,
+        region: &Region<'_>,
+        mut each: impl FnMut(Plane, PlaneId),
+    ) -> DVec3 {
         let extent = region.extent();
-        let mut body = self.lit_polyhedron(&region, extent, &mut each);
-        clip_all(&mut body, &hull, VIEW_BITS, extent, &mut each);
-        body
+        region.fill(body);
+        region.for_each_plane(&mut each);
+        clip_all(body, &self.light_planes, LIGHT_IDS, extent, &mut each);
+        extent
     }
 
     /// hull(R, l), or `None` when R is empty.
     fn hull_of_visible(&self) -> Option<PlaneList> {
         // Planes that bound the casters anyway need not bound them twice.
-        let known = if self.separate { LIGHT_BITS..VIEW_BITS } else { 0..VIEW_BITS };
+        let known = if self.separate { LIGHT_IDS..VIEW_IDS } else { 0..VIEW_IDS };
         PlaneList::hull_of_body(&self.visible(), self.light.homogeneous(), &known)
-    }
-
-    /// S ∩ L.
-    pub(crate) fn lit_polyhedron<const N: usize>(
-        &self,
-        region: &Region<'_>,
-        extent: DVec3,
-        mut each: impl FnMut(Plane, PlaneSet),
-    ) -> Polyhedron<N> {
-        let mut body = region.polyhedron();
-        region.for_each_plane(&mut each);
-        clip_all(&mut body, &self.light_planes, LIGHT_BITS, extent, &mut each);
-        body
     }
 }
 
-/// Clips by planes whose bits begin at `first`, each moved outwards by what rounding can do.
-pub(crate) fn clip_all<const N: usize>(
-    body: &mut Polyhedron<N>,
+/// Clips by planes whose names begin at `first`, each moved outwards by what rounding can do.
+pub(crate) fn clip_all(
+    body: &mut Polyhedron,
     planes: &[Plane],
-    first: u32,
+    first: PlaneId,
     extent: DVec3,
-    each: &mut impl FnMut(Plane, PlaneSet),
+    mut each: impl FnMut(Plane, PlaneId),
 ) {
-    for (plane, bit) in planes.iter().zip((first..).map(|bit| 1 << bit)) {
+    for (id, plane) in (first..).zip(planes) {
         let plane = plane.loosened(extent);
-        body.clip(&plane, bit);
-        each(plane, bit);
+        body.clip(&plane, id);
+        each(plane, id);
     }
 }
 
@@ -223,8 +217,8 @@ struct PlaneList {
 }
 
 impl PlaneList {
-    /// The bits left for a hull. Planes past them are left out, which makes the hull larger.
-    const MAX: usize = (PlaneSet::BITS - VIEW_BITS) as usize;
+    /// The names left for a hull. Planes past them are left out, which makes the hull larger.
+    const MAX: usize = Polyhedron::MAX_PLANES - VIEW_IDS as usize;
 
     const EMPTY: Self = Self { planes: [Plane::ONE; Self::MAX], len: 0 };
 
@@ -240,7 +234,7 @@ impl PlaneList {
     }
 
     /// hull(V, l). A frustum's edges are known: planes 0 and 1, 2 and 3, 4 and 5 face each other and all others meet.
-    fn hull_of_frustum(frustum: &FrustumPlanes, l: DVec4) -> Option<Self> {
+    fn hull_of_frustum(frustum: &FrustumPlanes, l: DVec4) -> Self {
         let mut hull = Self::EMPTY;
         let mut values = [0.0; 6];
         for (plane, value) in frustum.iter().zip(&mut values) {
@@ -256,23 +250,22 @@ impl PlaneList {
                 }
             }
         }
-        Some(hull)
+        hull
     }
 
-    /// hull(R, l), less the planes of R at the `known` bits, or `None` when R is empty.
-    fn hull_of_body(body: &Body, l: DVec4, known: &core::ops::Range<u32>) -> Option<Self> {
+    /// hull(R, l), less the planes of R with `known` names, or `None` when R is empty.
+    fn hull_of_body(body: &Body, l: DVec4, known: &core::ops::Range<PlaneId>) -> Option<Self> {
         if body.is_empty() {
             return None;
         }
         let mut hull = Self::EMPTY;
         let (planes, used) = body.plane_table();
-        let mut towards: PlaneSet = 0;
-        let mut away: PlaneSet = 0;
+        let (mut towards, mut away) = (0_u64, 0_u64);
         for bit in Bits(used) {
             let value = planes[bit].on(l);
-            towards |= PlaneSet::from(value > 0.0) << bit;
-            away |= PlaneSet::from(value < 0.0) << bit;
-            if value >= 0.0 && !known.contains(&(bit as u32)) {
+            towards |= u64::from(value > 0.0) << bit;
+            away |= u64::from(value < 0.0) << bit;
+            if value >= 0.0 && !known.contains(&(bit as PlaneId)) {
                 hull.push(planes[bit]);
             }
         }

@@ -1,7 +1,114 @@
-//! shadowfit
+//! Fits shadow maps: from a view, a light and a scene to the one matrix a renderer uploads.
+//!
+//! Given a **view** V (the camera's frustum), a **light** l with the region L it can light, and the bounds S of a
+//! **scene**, this crate computes
+//!
+//! 1. the focus body `H = hull(V, l) ∩ S ∩ L`: every point that must appear in the shadow map ([`Focus`], [`Body`]);
+//! 2. the class of the light after the camera's perspective ([`classify`]);
+//! 3. the virtual camera and its back-shift ([`VirtualCamera`]);
+//! 4. one 4×4 matrix, world → shadow clip space ([`fit`], [`Map`]);
+//! 5. what the matrix costs and gives: texel footprints, aliasing, depth resolution ([`Report`]), and the casters to
+//!    draw ([`Body::meets_box`], [`Culler`]).
+//!
+//! ```
+//! use shadowfit::{Focus, Form, Light, Outcome, Scene, Settings, View, Warp, classify, fit};
+//!
+//! # fn main() -> Result<(), shadowfit::InputError> {
+//! let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 500.0)?;
+//! let sun = Light::directional((0.4, 1.0, 0.2))?; // towards the light
+//! let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
+//!
+//! // The common case is one call.
+//! match fit(&view, &sun, &scene, &Settings::default()) {
+//!     Outcome::Map(map) => println!("upload {}", map.matrix()),
+//!     Outcome::Empty(why) => println!("{why}"),
+//!     Outcome::Surrounded(why) => println!("{why}"),
+//! }
+//!
+//! // And each step is there for those who need one of them.
+//! println!("{}", classify(&view, &sun)); // point, inverted, directional, infinity plane
+//! let focus = Focus::new(&view, &sun, &scene);
+//! let body = focus.body(Form::Tight);
+//! println!("draw the tree: {}", body.meets_box((3.0, 0.0, -9.0), (5.0, 4.0, -7.0)));
+//! if let Some(map) = focus.fit(&Settings::new(2048, 1080)?.with_warp(Warp::Uniform)).map() {
+//!     println!("a texel is at worst {} pixels long", map.report(&focus).aliasing);
+//! }
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Data flows one way, and the modules in its order: view, light, scene → convex → focus → perspective → rays → warp →
+//! homography → fit → map.
+//!
+//! # Conventions
+//!
+//! | what | is |
+//! |---|---|
+//! | handedness | either: a view's axes are its own; nothing else depends on it |
+//! | vectors and matrices | columns: `clip = shadow_from_world * position`; names read `to_from` |
+//! | planes | `normal · x + offset`, inside ≥ 0, normals point inwards |
+//! | directions of light | point **towards** the light; axes of spots and hemispheres point away from it |
+//! | angles, distances | radians, world units |
+//! | clip space | as the [`ClipSpace`] of the settings says; wgpu's by default |
+//! | numbers | f64 inside, f32 in [`Map::matrix`], bulk culling and lists of boxes |
+//!
+//! # Sources
+//!
+//! Perspective shadow maps: Stamminger & Drettakis, SIGGRAPH 2002. Texture-space matrices, depth precision: Kilgard,
+//! *Shadow Mapping with Today's OpenGL Hardware*, GDC 2000. Aliasing of warped maps: Lloyd, Tuft, Yoon & Manocha, EGSR
+//! 2006.
+//!
+//! # Features
+//!
+//! - `std` (on): square roots and angles from the standard library. Without it, enable `libm`.
+//! - `libm`: square roots and angles from the `libm` crate, with the same bits on every platform.
+//! - `parry3d`: bodies, boxes and convex hulls from and to parry3d.
+//! - `mint`: vectors and matrices of other libraries at the door, through glam.
+//! - `serde`: views, lights, settings and results can be stored; what is read is checked like any other input.
+//!
+//! glam 0.33.12 to 0.34 are accepted, and the one in use is re-exported as [`glam`]. To pin it to the version another
+//! crate needs: `cargo update -p glam@0.34.3 --precise 0.33.12`.
 #![no_std]
-mod axis; mod bounds; mod clip_space; mod convex; mod error; mod fit; mod focus; mod frame; mod homography; mod light; mod map; mod perspective; mod quality; mod rays; mod rounding; mod scene; mod settings; mod view; mod warp;
-#[cfg(feature="serde")] mod infinity;
-pub use clip_space::*; pub use convex::*; pub use error::*; pub use focus::*; pub use light::*; pub use scene::*; pub use view::*;
-pub use fit::*; pub use map::*; pub use perspective::*; pub use quality::*; pub use settings::*;
+
+#[cfg(any(feature = "std", test))]
+extern crate std;
+
+mod axis;
+mod bounds;
+mod clip_space;
+mod convex;
+mod cull;
+mod error;
+mod fit;
+mod focus;
+mod frame;
+mod homography;
+#[cfg(feature = "serde")]
+mod infinity;
+mod light;
+mod map;
+#[cfg(feature = "parry3d")]
+mod parry;
+mod perspective;
+mod quality;
+mod rays;
+mod rounding;
+mod scene;
+mod settings;
+mod view;
+mod warp;
+
+pub use clip_space::{ClipSpace, DepthRange, TextureOrigin, YAxis};
+pub use convex::{Body, Face, Plane};
+pub use cull::Culler;
+pub use error::{InputError, MAX_COORDINATE, MIN_DISTANCE, Problem};
+pub use fit::{Empty, Outcome, Surrounded, fit};
+pub use focus::{Focus, Form};
 pub use glam;
+pub use light::{Light, LightPlanes};
+pub use map::{DepthResolution, DepthSpan, Map, Report, Window};
+pub use perspective::{ClassKind, LightClass, NearCase, VirtualCamera, classify};
+pub use quality::{DepthFormat, Footprint};
+pub use scene::{Aabb, ConvexScene, Scene};
+pub use settings::{Origin, Settings, Shift, Warp};
+pub use view::{FrustumPlanes, Lens, View};

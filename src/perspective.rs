@@ -1,7 +1,10 @@
 //! The light after the camera's perspective: its class, and the virtual camera.
 
-use crate::convex::Plane;
+use crate::bounds::Interval;
+use crate::convex::{Body, Plane};
+use crate::focus::Focus;
 use crate::light::Light;
+use crate::settings::Shift;
 use crate::view::{Lens, View};
 use core::fmt;
 use glam::{DVec3, DVec4};
@@ -151,48 +154,60 @@ pub struct VirtualCamera {
 }
 
 impl VirtualCamera {
+    /// The camera for what is visible, or `None` when nothing is; moved back by [`Shift::Back`] as [`Focus::fit`] does.
+    #[must_use]
+    pub fn new(focus: &Focus<'_>, shift: Shift) -> Option<Self> {
+        let (view, visible) = (focus.view(), focus.visible());
+        let depths = |body: &Body| Self::depths(view, body.vertices().iter().copied());
+        if visible.is_empty() {
+            return None;
+        }
+        match shift {
+            Shift::None => Some(Self::own(view, &depths(&visible))),
+            Shift::Back(form) => {
+                let body = focus.body(form);
+                (!body.is_empty()).then(|| Self::moved_back(view, &depths(&body)))
+            }
+        }
+    }
+
+    /// The depths, before the eye of a view, of points.
+    pub(crate) fn depths(view: &View, points: impl Iterator<Item = DVec3>) -> Interval {
+        let mut depths = Interval::EMPTY;
+        points.for_each(|point| depths.include(view.depth(point)));
+        depths
+    }
+
     /// The view's own camera, its depth range drawn in to that of the visible points: what lies before the first and
     /// beyond the last of them does not matter to the warp, and an infinite far plane needs no special case.
-    ///
-    /// `None` for no points.
-    pub fn own(view: &View, visible: impl Iterator<Item = DVec3>) -> Option<Self> {
-        let (nearest, farthest) = depth_range(view, visible)?;
+    pub(crate) fn own(view: &View, visible: &Interval) -> Self {
         let (near, far) = match view.lens() {
             // Rounding may leave a point of R just before the near plane.
-            Lens::Perspective => (nearest.max(view.near()), farthest),
+            Lens::Perspective => (visible.min.max(view.near()), visible.max),
             Lens::Orthographic => (view.near(), view.far()),
         };
-        Some(Self { shift: 0.0, eye: view.eye(), near, far: beyond(near, far) })
+        Self { shift: 0.0, eye: view.eye(), near, far: beyond(near, far) }
     }
 
     /// The camera moved back until every point of H lies beyond its near plane: by the least s that brings the nearest
     /// one to the near distance. The near distance stays, the far plane grows to hold the old frustum and H, and so does
     /// the rest of the frustum, which keeps its angle.
     ///
-    /// An orthographic view has no perspective to weaken and does not move. `None` for no points.
-    pub fn moved_back(view: &View, body: impl Iterator<Item = DVec3>) -> Option<Self> {
-        let (nearest, farthest) = depth_range(view, body)?;
+    /// An orthographic view has no perspective to weaken and does not move.
+    pub(crate) fn moved_back(view: &View, body: &Interval) -> Self {
         if view.lens() == Lens::Orthographic {
-            return Some(Self { shift: 0.0, eye: view.eye(), near: view.near(), far: view.far() });
+            return Self { shift: 0.0, eye: view.eye(), near: view.near(), far: view.far() };
         }
         let near = view.near();
-        let shift = (near - nearest).max(0.0);
-        let far = if view.far().is_finite() { farthest.max(view.far()) } else { farthest };
-        Some(Self { shift, eye: view.eye() - view.forward() * shift, near, far: beyond(near, far + shift) })
+        let shift = (near - body.min).max(0.0);
+        let far = if view.far().is_finite() { body.max.max(view.far()) } else { body.max };
+        Self { shift, eye: view.eye() - view.forward() * shift, near, far: beyond(near, far + shift) }
     }
 
     /// The rows of the camera's matrix.
     pub(crate) fn rows(&self, view: &View) -> [Plane; 4] {
         view.moved_back(self.shift).rows(self.near, self.far)
     }
-}
-
-fn depth_range(view: &View, points: impl Iterator<Item = DVec3>) -> Option<(f64, f64)> {
-    let depths = points.map(|point| view.depth(point));
-    depths.fold(None, |range, depth| {
-        let (nearest, farthest) = range.unwrap_or((depth, depth));
-        Some((depth.min(nearest), depth.max(farthest)))
-    })
 }
 
 /// A far depth that is beyond the near one even when all points lie at one depth.

@@ -1,7 +1,7 @@
 //! Rays as a plane of their own.
 
 use crate::axis::widest_margin;
-use crate::convex::Plane;
+use crate::convex::{Plane, Polyhedron};
 use crate::focus::Focus;
 use crate::frame;
 use glam::{DVec2, DVec3};
@@ -32,6 +32,8 @@ pub(crate) struct Rays {
     origin: DVec3,
     /// Whether the light is at a position.
     pub(crate) local: bool,
+    /// What is visible and no nearer to the light than its near distance has at least this w.
+    pub(crate) least_w: f64,
 }
 
 /// The light stands among what it lights: no plane through it leaves everything visible on one side.
@@ -39,26 +41,23 @@ pub(crate) struct NoAxis;
 
 impl Rays {
     /// The chart around what is visible.
-    pub(crate) fn new<const N: usize>(
-        focus: &Focus<'_>,
-        visible: impl ExactSizeIterator<Item = DVec3>,
-    ) -> Result<Self, NoAxis> {
+    pub(crate) fn new(focus: &Focus<'_>, visible: impl Iterator<Item = DVec3>) -> Result<Self, NoAxis> {
         let view = focus.view();
-        let l = focus.light().homogeneous();
         let position = focus.light().position();
-        let axis = match position {
-            None => -l.truncate(),
+        let (axis, margin) = match position {
+            None => (-focus.light().homogeneous().truncate(), 1.0),
             Some(position) => {
-                let mut directions = [DVec3::ZERO; N];
-                let len = visible.len().min(N);
+                let mut directions = [DVec3::ZERO; Polyhedron::MAX_VERTICES];
+                let mut len = 0;
                 for (direction, point) in directions.iter_mut().zip(visible) {
                     *direction = (point - position).try_normalize().ok_or(NoAxis)?;
+                    len += 1;
                 }
                 let (axis, margin) = widest_margin(&directions[..len]).ok_or(NoAxis)?;
                 if margin < Self::MIN_MARGIN {
                     return Err(NoAxis);
                 }
-                axis
+                (axis, margin)
             }
         };
         let (u_axis, v_axis) = frame::across(axis, view.forward(), view.up());
@@ -74,6 +73,7 @@ impl Rays {
             along,
             origin,
             local: position.is_some(),
+            least_w: focus.light().near() * margin,
         })
     }
 

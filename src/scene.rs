@@ -1,6 +1,6 @@
 //! The scene S: bounds of what casts shadows and of what receives them.
 
-use crate::convex::{Plane, PlaneSet, Polyhedron, Vertex, box_planes};
+use crate::convex::{Plane, PlaneId, Polyhedron, box_planes};
 use crate::error::{InputError, Problem, check};
 use glam::{DVec3, Vec3};
 
@@ -85,8 +85,7 @@ fn checked_box(min: DVec3, max: DVec3) -> Result<(DVec3, DVec3), InputError> {
 /// Made once where the scene changes and borrowed by [`Scene::from_convex`] for every fit.
 #[derive(Clone, Debug)]
 pub struct ConvexScene {
-    vertices: [Vertex; Self::MAX_VERTICES],
-    len: usize,
+    body: Polyhedron,
     planes: [Plane; Self::MAX_PLANES],
     plane_count: usize,
     min: DVec3,
@@ -94,11 +93,9 @@ pub struct ConvexScene {
 }
 
 impl ConvexScene {
-    /// The most planes that may cut the box: enough for the 26 directions to the faces, edges and corners of a cube.
-    pub const MAX_CUTS: usize = 20;
-    pub(crate) const MAX_PLANES: usize = 6 + Self::MAX_CUTS;
-    /// `2F − 4` vertices for `F` planes.
-    const MAX_VERTICES: usize = 2 * Self::MAX_PLANES - 4;
+    /// The most planes that may cut the box: enough for the directions to the edges of a cube, see [`Self::around`].
+    pub const MAX_CUTS: usize = 12;
+    const MAX_PLANES: usize = 6 + Self::MAX_CUTS;
 
     /// The part of a box inside all of `planes`, each of which keeps what lies on the side its normal points to.
     ///
@@ -112,12 +109,11 @@ impl ConvexScene {
         if planes.len() > Self::MAX_CUTS {
             return check::fail(FIELD, Problem::TooMany);
         }
-        // Clipping needs room for the new vertices beside the old ones.
-        let mut body = Polyhedron::<{ 2 * Self::MAX_VERTICES }>::from_box(min, max);
+        let mut body = Polyhedron::from_box(min, max);
         let mut all = [Plane::ONE; Self::MAX_PLANES];
         all[..6].copy_from_slice(&box_planes(min, max));
         let extent = min.abs().max(max.abs());
-        for (index, (plane, slot)) in planes.iter().zip(&mut all[6..]).enumerate() {
+        for (id, (plane, slot)) in (6..).zip(planes.iter().zip(&mut all[6..])) {
             let length = plane.normal.length();
             if !(plane.offset.is_finite() && length.is_finite()) {
                 return check::fail(FIELD, Problem::NotFinite);
@@ -126,24 +122,18 @@ impl ConvexScene {
                 return check::fail(FIELD, Problem::NoDirection);
             }
             *slot = plane.normalized().loosened(extent);
-            body.clip(slot, 1 << (6 + index));
+            body.clip(slot, id);
         }
         if body.is_empty() {
             return check::fail(FIELD, Problem::Empty);
         }
-        let mut vertices = [Vertex { position: DVec3::ZERO, planes: 0 }; Self::MAX_VERTICES];
-        let Some(room) = vertices.get_mut(..body.vertices().len()) else {
-            return check::fail(FIELD, Problem::TooMany);
-        };
-        room.copy_from_slice(body.vertices());
         let min = body.positions().fold(max, DVec3::min);
         let max = body.positions().fold(min, DVec3::max);
-        let len = body.vertices().len();
-        Ok(Self { vertices, len, planes: all, plane_count: 6 + planes.len(), min, max })
+        Ok(Self { body, planes: all, plane_count: 6 + planes.len(), min, max })
     }
 
-    /// The smallest body around points whose faces look along the 26 directions to the faces, edges and corners of a
-    /// cube: a bound for a mesh much tighter than its box.
+    /// The smallest body around points whose faces look along the 18 directions to the faces and edges of a cube: a
+    /// bound for a mesh that is tighter than its box.
     ///
     /// # Errors
     ///
@@ -151,17 +141,13 @@ impl ConvexScene {
     pub fn around(points: impl IntoIterator<Item = DVec3>) -> Result<Self, InputError> {
         const FIELD: &str = "points";
         /// Half of the directions; the others are their opposites.
-        const DIRECTIONS: [DVec3; 10] = [
+        const DIRECTIONS: [DVec3; 6] = [
             DVec3::new(1.0, 1.0, 0.0),
             DVec3::new(1.0, -1.0, 0.0),
             DVec3::new(0.0, 1.0, 1.0),
             DVec3::new(0.0, 1.0, -1.0),
             DVec3::new(1.0, 0.0, 1.0),
             DVec3::new(1.0, 0.0, -1.0),
-            DVec3::new(1.0, 1.0, 1.0),
-            DVec3::new(1.0, 1.0, -1.0),
-            DVec3::new(1.0, -1.0, 1.0),
-            DVec3::new(1.0, -1.0, -1.0),
         ];
         let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let mut slabs = [(f64::INFINITY, f64::NEG_INFINITY); DIRECTIONS.len()];
@@ -183,14 +169,6 @@ impl ConvexScene {
         }
         Self::new(min, max, &planes)
     }
-
-    pub(crate) fn vertices(&self) -> &[Vertex] {
-        &self.vertices[..self.len]
-    }
-
-    pub(crate) fn planes(&self) -> &[Plane] {
-        &self.planes[..self.plane_count]
-    }
 }
 
 /// One convex bound of casters or of receivers, which a body is clipped from.
@@ -201,30 +179,23 @@ pub(crate) enum Region<'a> {
 }
 
 impl Region<'_> {
-    /// The planes of a region take the bits below this one.
-    pub(crate) const BITS: u32 = ConvexScene::MAX_PLANES as u32;
+    /// The planes of a region have the names below this one.
+    pub(crate) const IDS: PlaneId = ConvexScene::MAX_PLANES as PlaneId;
 
-    /// The region as a body to clip.
-    pub(crate) fn polyhedron<const N: usize>(&self) -> Polyhedron<N> {
-        match *self {
-            Self::Box { min, max } => Polyhedron::from_box(min, max),
-            Self::Convex(body) => Polyhedron::from_vertices(body.vertices()),
+    /// Makes a body of the region, to clip.
+    pub(crate) fn fill(&self, body: &mut Polyhedron) {
+        match self {
+            Self::Box { min, max } => body.set_box(*min, *max),
+            Self::Convex(scene) => body.clone_from(&scene.body),
         }
     }
 
-    /// Passes each plane of the region and its bit to `each`.
-    pub(crate) fn for_each_plane(&self, mut each: impl FnMut(Plane, PlaneSet)) {
+    /// Passes each plane of the region and its name to `each`.
+    pub(crate) fn for_each_plane(&self, mut each: impl FnMut(Plane, PlaneId)) {
+        let mut pass = |planes: &[Plane]| (0..).zip(planes).for_each(|(id, plane)| each(*plane, id));
         match self {
-            Self::Box { min, max } => {
-                for (index, plane) in box_planes(*min, *max).into_iter().enumerate() {
-                    each(plane, 1 << index);
-                }
-            }
-            Self::Convex(body) => {
-                for (index, plane) in body.planes().iter().enumerate() {
-                    each(*plane, 1 << index);
-                }
-            }
+            Self::Box { min, max } => pass(&box_planes(*min, *max)),
+            Self::Convex(scene) => pass(&scene.planes[..scene.plane_count]),
         }
     }
 
@@ -232,7 +203,7 @@ impl Region<'_> {
     pub(crate) fn extent(&self) -> DVec3 {
         match self {
             Self::Box { min, max } => min.abs().max(max.abs()),
-            Self::Convex(body) => body.min.abs().max(body.max.abs()),
+            Self::Convex(scene) => scene.min.abs().max(scene.max.abs()),
         }
     }
 }

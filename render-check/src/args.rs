@@ -35,10 +35,15 @@ Pictures, per light (N counts the lights from 1):
                       outside H, and so need not be in the shadow map, is darkened
   N-KIND-maps.png     the depths in the uniform map (left) and in the perspective shadow map (right), with H
 
-The table: the light's class after the camera's perspective; s, how far the virtual camera moves back for the
-whole of H; H and its share of the scene's box; the part of the map's plane that the window covers; the worst
-aliasing in view (texels wanted over texels given, 1 is ideal) of the uniform and of the perspective map; and the
-median time of one fit on this machine.";
+The table:
+  class       what the camera's perspective makes of the light (a point light, one on the infinity plane, …)
+  s           how far the virtual camera of the PSM moves back for the whole of H, in world units
+  H           vertices, faces and share of the scene's box, as in the paper; below, of its tight form
+  map         uniform; PSM, the perspective shadow map; and the PSM without the move back
+  window      what a map would cover if it were everywhere as it is in its middle: world units for a sun, width over
+              distance for a lamp
+  aliasing    the longest side of a texel over that of a pixel, at its worst in view: 1 is ideal, above it shows
+  fit         the median time of one PSM fit, on this machine";
 
 /// Fits shadow maps to a scene and shows what came of it.
 ///
@@ -146,7 +151,16 @@ mod tests {
     #[test]
     fn negative_numbers_are_values_not_options() {
         let args = Args::parse_from([
-            "render-check", "a.glb", "--eye", "-1,2,-3", "--target", "-4,5,6", "--light", "sun:-1,1,0", "--far", "inf",
+            "render-check",
+            "a.glb",
+            "--eye",
+            "-1,2,-3",
+            "--target",
+            "-4,5,6",
+            "--light",
+            "sun:-1,1,0",
+            "--far",
+            "inf",
         ]);
         assert_eq!(args.eye, Some(DVec3::new(-1.0, 2.0, -3.0)));
         assert_eq!(args.target, Some(DVec3::new(-4.0, 5.0, 6.0)));
@@ -156,8 +170,11 @@ mod tests {
 
     #[test]
     fn every_example_in_the_help_is_a_command() {
-        let commands = AFTER_HELP.lines().filter(|line| line.starts_with("  render-check"));
-        assert_eq!(commands.map(|line| Args::try_parse_from(line.split_whitespace()).expect(line)).count(), 4);
+        let commands: Vec<_> = AFTER_HELP.lines().filter(|line| line.starts_with("  render-check")).collect();
+        assert_eq!(commands.len(), 4);
+        for command in commands {
+            Args::try_parse_from(command.split_whitespace()).expect(command);
+        }
     }
 
     #[test]

@@ -64,7 +64,7 @@ pub fn run(args: &Args) -> Result<()> {
         .collect::<Result<Vec<_>>>()?;
     println!("{}", table(&fits, (min, max)));
     for (i, fit) in fits.iter().enumerate() {
-        if let Some(reason) = reason_without_map(&fit.perspective) {
+        if let Some(reason) = reason_without_map(&fit.perspective.outcome) {
             println!("light {}: no map: {reason}", i + 1);
         }
     }
@@ -85,7 +85,12 @@ fn choose_lights(args: &Args, scene: &LoadedScene) -> Vec<LightSpec> {
 
 /// Draws the pictures of one light. The maps are left out where there are none.
 fn draw(
-    args: &Args, out: &Path, number: usize, fit: &LightFit, view: &View, tracer: &Tracer,
+    args: &Args,
+    out: &Path,
+    number: usize,
+    fit: &LightFit,
+    view: &View,
+    tracer: &Tracer,
 ) -> Result<Vec<PathBuf>> {
     let size = [args.width, args.height];
     let mut written = Vec::new();
@@ -105,7 +110,7 @@ fn draw(
     let lens = light_lens(&fit.spec, view, &fit.body, tracer.mesh(), aspect)?;
     write("light", &light_view(&lens, view, tracer, &fit.body, size))?;
 
-    let [uniform, perspective] = [map_lens(&fit.uniform)?, map_lens(&fit.perspective)?];
+    let [uniform, perspective] = [map_lens(&fit.uniform.outcome)?, map_lens(&fit.perspective.outcome)?];
     if uniform.is_some() || perspective.is_some() {
         let maps = [("uniform", uniform.as_ref()), ("perspective", perspective.as_ref())];
         write("maps", &maps_view(maps, args.size, tracer, &edges))?;

@@ -4,7 +4,9 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
-use shadowfit::{Body, Focus, Form, Light, LightClass, Outcome, Scene, Settings, Shift, View, Warp, classify, fit};
+use shadowfit::{
+    Body, Focus, Form, Light, LightClass, Outcome, Report, Scene, Settings, Shift, View, Warp, classify, fit,
+};
 
 use crate::light::LightSpec;
 use crate::scene::Mesh;
@@ -15,6 +17,15 @@ const LAMP_NEAR: f64 = 1e-3;
 /// How long fits are timed for each light, and how many at most.
 const TIMING_BUDGET: Duration = Duration::from_millis(100);
 const MOST_TIMED_FITS: usize = 2001;
+
+/// One way to fit a light, and what came of it.
+#[derive(Debug)]
+pub struct Fitted {
+    /// The map, or why there is none.
+    pub outcome: Outcome,
+    /// What there is to know about the map.
+    pub report: Option<Report>,
+}
 
 /// All that is known of one light.
 #[derive(Debug)]
@@ -27,12 +38,12 @@ pub struct LightFit {
     pub body: Body,
     /// The tight form of H.
     pub tight_body: Body,
-    /// The fit without a warp.
-    pub uniform: Outcome,
-    /// The perspective shadow map's.
-    pub perspective: Outcome,
-    /// The perspective shadow map's with the virtual camera moved back for the whole of H, as in the paper.
-    pub shifted: Outcome,
+    /// The map without a warp.
+    pub uniform: Fitted,
+    /// The perspective shadow map: the virtual camera moved back for the whole of H, as in the paper.
+    pub perspective: Fitted,
+    /// The perspective shadow map with the virtual camera where the view's is.
+    pub unshifted: Fitted,
     /// The median time of one perspective fit on this machine.
     pub median_time: Duration,
 }
@@ -57,15 +68,19 @@ pub fn fit_light(spec: LightSpec, view: &View, mesh: &Mesh, settings: &Settings)
     let (min, max) = mesh.bounds();
     let light: Light = spec.to_light(LAMP_NEAR * (max - min).length())?;
     let focus = Focus::new(view, &light, &scene);
-    let perspective = settings.with_warp(Warp::Perspective);
+    let fitted = |settings: Settings| {
+        let outcome = focus.fit(&settings);
+        Fitted { outcome, report: outcome.map().map(|map| map.report(&focus)) }
+    };
+    let perspective = settings.with_warp(Warp::Perspective).with_shift(Shift::Back(Form::Paper));
     Ok(LightFit {
         spec,
         class: classify(view, &light),
         body: focus.body(Form::Paper),
         tight_body: focus.body(Form::Tight),
-        uniform: fit(view, &light, &scene, &settings.with_warp(Warp::Uniform)),
-        perspective: fit(view, &light, &scene, &perspective),
-        shifted: fit(view, &light, &scene, &perspective.with_shift(Shift::Back(Form::Paper))),
+        uniform: fitted(settings.with_warp(Warp::Uniform)),
+        perspective: fitted(perspective),
+        unshifted: fitted(perspective.with_shift(Shift::None)),
         median_time: median_time(|| fit(view, &light, &scene, black_box(&perspective))),
     })
 }
@@ -81,4 +96,44 @@ fn median_time<T>(call: impl Fn() -> T) -> Duration {
     }
     times.sort_unstable();
     times[times.len() / 2]
+}
+
+#[cfg(test)]
+mod tests {
+    use shadowfit::glam::DVec3;
+
+    use super::*;
+    use crate::picture::Lens;
+    use crate::scene;
+    use crate::trace::Tracer;
+
+    #[test]
+    fn all_that_the_camera_sees_is_in_both_maps_of_every_light() {
+        let scene = scene::load(None).expect("built in");
+        let tracer = Tracer::new(&scene.mesh).expect("it has triangles");
+        let camera = scene.camera.expect("it has a camera");
+        let view = View::perspective(camera.eye, camera.forward, camera.up, camera.fov_y, 1.6, 1.0, 28.0);
+        let view = view.expect("a sound camera");
+        let eye = Lens::of_view(&view).expect("invertible");
+        let rays = (0..30)
+            .flat_map(|y| (0..48).map(move |x| (x, y)))
+            .filter_map(|(x, y)| eye.ray_through_pixel(x, y, 48, 30));
+        let seen: Vec<DVec3> = rays.filter_map(|ray| tracer.first_hit(&ray)).map(|hit| hit.point).collect();
+        assert!(seen.len() > 900, "{} points", seen.len());
+
+        let settings = Settings::new(256, 600).expect("sound sizes");
+        for &spec in scene.lights.iter().filter(|light| light.kind() != "spot") {
+            let light_fit = fit_light(spec, &view, &scene.mesh, &settings).expect("a sound light");
+            assert!(!light_fit.body.is_empty() && light_fit.median_time > Duration::ZERO);
+            for fitted in [&light_fit.uniform, &light_fit.perspective, &light_fit.unshifted] {
+                let map = fitted.outcome.map().expect("one frustum does");
+                let lens = Lens::new(map.shadow_from_world()).expect("invertible");
+                for &point in &seen {
+                    let [x, y, z] = lens.project(point).to_array();
+                    let inside = x.abs() <= 1.0 && y.abs() <= 1.0 && (0.0..=1.0).contains(&z);
+                    assert!(inside && light_fit.body.contains(point), "{spec}: {point} at {x}, {y}, {z}");
+                }
+            }
+        }
+    }
 }

@@ -114,7 +114,8 @@ pub fn choose_view(camera: &Camera, aspect: f64, tracer: &Tracer) -> Result<(Vie
     let near = camera.near.unwrap_or((NEAR_PLANE_MARGIN * probe.nearest).max(least_near));
     let view = camera.view(aspect, near, far)?;
     // Inside a closed solid one sees it from behind, all around and close by.
-    let inside = probe.back_faces > 0.9 && probe.nearest < 0.02 * scene_end;
+    let (min, max) = tracer.mesh().bounds();
+    let inside = probe.back_faces > 0.9 && probe.nearest < 0.02 * (max - min).length();
     let warning = inside.then(|| {
         "the camera seems to be inside a wall or a solid: nearly all it sees are back faces; move --eye".to_owned()
     });
@@ -133,8 +134,12 @@ fn probe(view: &View, tracer: &Tracer) -> Result<Probe> {
     let (width, height) = PROBE;
     let (mut hits, mut back_faces, mut nearest) = (0_u32, 0_u32, f64::INFINITY);
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-        let Some(ray) = lens.ray_through_pixel(x, y, width, height) else { continue };
-        let Some(hit) = tracer.first_hit(&ray) else { continue };
+        let Some(ray) = lens.ray_through_pixel(x, y, width, height) else {
+            continue;
+        };
+        let Some(hit) = tracer.first_hit(&ray) else {
+            continue;
+        };
         hits += 1;
         back_faces += u32::from(hit.is_back_face(&ray));
         nearest = nearest.min((hit.point - view.eye()).dot(view.forward()));
@@ -155,7 +160,8 @@ mod tests {
     use clap::Parser;
 
     use super::*;
-    use crate::scene;
+    use crate::scene::{self, MeshBuilder, Part};
+    use shadowfit::glam::DMat4;
 
     fn chess_view(arguments: &[&str]) -> Result<(View, Option<String>)> {
         let args = Args::parse_from([&["render-check"], arguments].concat());
@@ -167,7 +173,7 @@ mod tests {
     #[test]
     fn the_scenes_own_camera_is_used_where_no_other_is_given() {
         let (view, warning) = chess_view(&[]).expect("the chess board is in view");
-        assert_eq!((view.near(), view.far(), warning), (1.0, 40.0, None));
+        assert_eq!((view.near(), view.far(), warning), (1.0, 28.0, None));
     }
 
     #[test]
@@ -199,13 +205,29 @@ mod tests {
         assert!(behind.to_string().contains("--target"), "{behind}");
         let beside = chess_view(&["--eye", "0,2,3", "--target", "0,30,1"]).expect_err("only sky");
         assert!(beside.to_string().contains("nothing is in view"), "{beside}");
-        let beyond = chess_view(&["--near", "39"]).expect_err("the board ends before");
+        let beyond = chess_view(&["--near", "27.9"]).expect_err("the board ends before");
         assert!(beyond.to_string().contains("--near"), "{beyond}");
     }
 
     #[test]
     fn a_camera_inside_a_solid_is_warned_about() {
-        let (_, warning) = chess_view(&["--eye", "0,-0.2,-12.01", "--target", "1,-0.21,-12"]).expect("in view");
-        assert!(warning.expect("inside the board").contains("--eye"));
+        let corners =
+            |x: f64| [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(y, z)| DVec3::new(x, y, z));
+        let positions = [corners(-1.0), corners(40.0)].concat();
+        // The two ends of a long beam, fronts outwards: its sides are not in view.
+        let triangles = [[4, 5, 6], [4, 6, 7], [0, 2, 1], [0, 3, 2]];
+        let mut builder = MeshBuilder::default();
+        builder.add(
+            &Part { positions: &positions, normals: &[], triangles: &triangles, colour: [1.0; 3] },
+            DMat4::IDENTITY,
+        );
+        let (mesh, _) = builder.finish();
+        let tracer = Tracer::new(&mesh).expect("the mesh has triangles");
+        let warning = |eye: DVec3, target: DVec3| {
+            let camera = Camera::looking_at(eye, target, 1.0).expect("apart");
+            choose_view(&camera, 1.0, &tracer).expect("in view").1
+        };
+        assert!(warning(39.7 * DVec3::X, 45.0 * DVec3::X).expect("inside").contains("--eye"));
+        assert_eq!(warning(44.0 * DVec3::X, DVec3::ZERO), None);
     }
 }

@@ -87,7 +87,9 @@ impl fmt::Display for LightSpec {
             format!("{x},{y},{z}")
         };
         let range = match *self {
-            Self::Point { range, .. } | Self::Spot { range, .. } if range.is_finite() => format!("/{range}"),
+            Self::Point { range, .. } | Self::Spot { range, .. } if range.is_finite() => {
+                format!("/{range}")
+            }
             _ => String::new(),
         };
         match *self {
@@ -107,7 +109,8 @@ impl FromStr for LightSpec {
     fn from_str(text: &str) -> Result<Self, String> {
         const SPELLINGS: &str =
             "write sun:X,Y,Z (towards the sun), point:X,Y,Z[/RANGE] or spot:X,Y,Z/TX,TY,TZ/DEGREES[/RANGE]";
-        let (kind, rest) = text.split_once(':').ok_or_else(|| format!("no ':' after the kind of light; {SPELLINGS}"))?;
+        let (kind, rest) =
+            text.split_once(':').ok_or_else(|| format!("no ':' after the kind of light; {SPELLINGS}"))?;
         let parts: Vec<&str> = rest.split('/').collect();
         match (kind, parts.as_slice()) {
             ("sun", [direction]) => {
@@ -160,7 +163,8 @@ mod tests {
 
     #[test]
     fn every_spelling_reads_and_prints_back() {
-        for text in ["sun:0.5,1,-0.35", "point:1,2,3", "point:1,2,3/20", "spot:0,4,0/1,0,-1/40", "spot:0,4,0/1,0,-1/40/9"]
+        for text in
+            ["sun:0.5,1,-0.35", "point:1,2,3", "point:1,2,3/20", "spot:0,4,0/1,0,-1/40", "spot:0,4,0/1,0,-1/40/9"]
         {
             let light: LightSpec = text.parse().expect(text);
             assert_eq!(light.to_string(), text);

@@ -5,9 +5,9 @@ use std::time::Duration;
 use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use shadowfit::glam::DVec3;
-use shadowfit::{Body, Outcome};
+use shadowfit::{Body, Outcome, Report};
 
-use crate::fitting::LightFit;
+use crate::fitting::{Fitted, LightFit};
 
 /// The table of all lights. `bounds` are those of the scene.
 #[must_use]
@@ -16,20 +16,21 @@ pub fn table(fits: &[LightFit], bounds: (DVec3, DVec3)) -> Table {
     table
         .load_style(UTF8_FULL_CONDENSED)
         .set_content_arrangement(ContentArrangement::Disabled)
-        .set_header(["", "light", "class", "s", "H", "window", "aliasing", "fit"]);
+        .set_header(["", "light", "class", "s", "H", "map", "window", "aliasing", "fit"]);
     for (i, fit) in fits.iter().enumerate() {
         table.add_row([
             (i + 1).to_string(),
             fit.spec.to_string(),
             fit.class.kind.to_string(),
-            shift(&fit.shifted),
+            of(&fit.perspective, |report| number(report.camera.shift)),
             body(fit, bounds),
-            format!("uniform {}\nPSM     {}", window(&fit.uniform), window(&fit.perspective)),
-            format!("uniform {}\nPSM     {}", aliasing(&fit.uniform), aliasing(&fit.perspective)),
+            MAPS.join("\n"),
+            each_map(fit, |report| format!("{} x {}", number(report.window.width), number(report.window.height))),
+            each_map(fit, |report| number(report.aliasing)),
             microseconds(fit.median_time),
         ]);
     }
-    for column in [0, 3, 7] {
+    for column in [0, 3, 7, 8] {
         if let Some(column) = table.column_mut(column) {
             column.set_cell_alignment(CellAlignment::Right);
         }
@@ -47,11 +48,16 @@ pub fn reason_without_map(outcome: &Outcome) -> Option<String> {
     }
 }
 
-fn shift(outcome: &Outcome) -> String {
-    match outcome {
-        Outcome::Map(map) => number(map.report().shift),
-        _ => "-".into(),
-    }
+/// A figure of one map, or a dash where there is no map.
+fn of(fitted: &Fitted, figure: impl Fn(&Report) -> String) -> String {
+    fitted.report.as_ref().map_or_else(|| "-".into(), figure)
+}
+
+/// The maps of a light, a line each.
+const MAPS: [&str; 3] = ["uniform", "PSM", "PSM, s = 0"];
+
+fn each_map(fit: &LightFit, figure: impl Fn(&Report) -> String) -> String {
+    [&fit.uniform, &fit.perspective, &fit.unshifted].map(|fitted| of(fitted, &figure)).join("\n")
 }
 
 fn body(fit: &LightFit, (min, max): (DVec3, DVec3)) -> String {
@@ -73,23 +79,10 @@ fn body(fit: &LightFit, (min, max): (DVec3, DVec3)) -> String {
     )
 }
 
-fn window(outcome: &Outcome) -> String {
-    match outcome {
-        Outcome::Map(_) => String::new(),
-        _ => "-".into(),
-    }
-}
-
-fn aliasing(outcome: &Outcome) -> String {
-    match outcome {
-        Outcome::Map(map) => number(map.report().aliasing),
-        _ => "-".into(),
-    }
-}
-
 /// A number with three digits that matter.
 fn number(value: f64) -> String {
-    let digits = if value.abs() >= 1.0 && value.is_finite() { (2.0 - value.abs().log10().floor()).max(0.0) } else { 3.0 };
+    let digits =
+        if value.abs() >= 1.0 && value.is_finite() { (2.0 - value.abs().log10().floor()).max(0.0) } else { 3.0 };
     format!("{value:.*}", digits as usize)
 }
 

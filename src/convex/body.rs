@@ -1,6 +1,6 @@
 //! A convex body with its faces, as a result.
 
-use super::{Plane, PlaneSet, Polyhedron};
+use super::{Bits, Plane, Polyhedron};
 use glam::DVec3;
 
 /// A bounded convex body: vertices, faces and planes.
@@ -14,25 +14,23 @@ use glam::DVec3;
 /// - It holds its memory itself: a body is a few kilobytes and allocates nothing.
 #[derive(Clone, Debug)]
 pub struct Body {
-    positions: [DVec3; Self::MAX_VERTICES],
-    incidence: [PlaneSet; Self::MAX_VERTICES],
+    positions: [DVec3; Polyhedron::MAX_VERTICES],
+    /// For each vertex, the planes it lies on, one bit each.
+    incidence: [u64; Polyhedron::MAX_VERTICES],
     len: usize,
-    planes: [Plane; PlaneSet::BITS as usize],
-    used: PlaneSet,
+    planes: PlaneTable,
+    /// The planes that a vertex lies on.
+    used: u64,
 }
 
-impl Body {
-    /// Room for the vertices of a scene of 26 planes, a light of 6 and a hull of 10, which has `2 · 42 − 4`, and for
-    /// the new vertices of a cut beside them.
-    pub(crate) const MAX_VERTICES: usize = 128;
+/// Planes by their names.
+pub(crate) type PlaneTable = [Plane; Polyhedron::MAX_PLANES];
 
-    pub(crate) fn new(
-        polyhedron: &Polyhedron<{ Self::MAX_VERTICES }>,
-        planes: [Plane; PlaneSet::BITS as usize],
-    ) -> Self {
+impl Body {
+    pub(crate) fn new(polyhedron: &Polyhedron, planes: PlaneTable) -> Self {
         let mut body = Self {
-            positions: [DVec3::ZERO; Self::MAX_VERTICES],
-            incidence: [0; Self::MAX_VERTICES],
+            positions: [DVec3::ZERO; Polyhedron::MAX_VERTICES],
+            incidence: [0; Polyhedron::MAX_VERTICES],
             len: 0,
             planes,
             used: 0,
@@ -41,9 +39,9 @@ impl Body {
             let found = body.positions[..body.len].iter().position(|&known| known == vertex.position);
             let index = found.unwrap_or(body.len);
             body.positions[index] = vertex.position;
-            body.incidence[index] |= vertex.planes;
+            body.incidence[index] |= vertex.planes.iter().fold(0, |set, plane| set | 1 << plane);
             body.len = body.len.max(index + 1);
-            body.used |= vertex.planes;
+            body.used |= body.incidence[index];
         }
         body
     }
@@ -116,23 +114,22 @@ impl Body {
     }
 
     /// All planes by bit, and which of them hold a vertex.
-    pub(crate) const fn plane_table(&self) -> (&[Plane; PlaneSet::BITS as usize], PlaneSet) {
+    pub(crate) const fn plane_table(&self) -> (&PlaneTable, u64) {
         (&self.planes, self.used)
     }
 
     /// Whether an edge, or at least a vertex, lies on both planes.
     pub(crate) fn meet(&self, bit: usize, other: usize) -> bool {
-        let both = 1 << bit | 1 << other;
+        let both = 1_u64 << bit | 1 << other;
         self.incidence[..self.len].iter().any(|set| set & both == both)
     }
 
     fn face(&self, bit: usize) -> Option<Face<'_>> {
         let plane = self.planes[bit];
-        let mut face = Face { body: self, plane, order: [0; Self::MAX_VERTICES], len: 0 };
+        let mut face = Face { body: self, plane, order: [0; Polyhedron::MAX_VERTICES], len: 0 };
         let mut sum = DVec3::ZERO;
         for (index, set) in self.incidence[..self.len].iter().enumerate() {
             if set >> bit & 1 == 1 {
-                // There are at most 128 vertices.
                 face.order[face.len] = index as u8;
                 face.len += 1;
                 sum += self.positions[index];
@@ -161,7 +158,7 @@ impl Body {
 pub struct Face<'a> {
     body: &'a Body,
     plane: Plane,
-    order: [u8; Body::MAX_VERTICES],
+    order: [u8; Polyhedron::MAX_VERTICES],
     len: usize,
 }
 
@@ -180,20 +177,5 @@ impl Face<'_> {
     /// The corners as indices into [`Body::vertices`], counter-clockwise as seen from outside the body.
     pub fn indices(&self) -> impl ExactSizeIterator<Item = usize> + Clone + '_ {
         self.order[..self.len].iter().map(|&index| usize::from(index))
-    }
-}
-
-/// The positions of the bits of a set, from the lowest.
-#[derive(Clone, Debug)]
-pub(crate) struct Bits(pub(crate) PlaneSet);
-
-impl Iterator for Bits {
-    type Item = usize;
-    fn next(&mut self) -> Option<usize> {
-        let bit = self.0.trailing_zeros();
-        (self.0 != 0).then(|| {
-            self.0 &= self.0 - 1;
-            bit as usize
-        })
     }
 }

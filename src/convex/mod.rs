@@ -1,11 +1,12 @@
 //! Planes and convex bodies.
 
+mod bits;
 mod body;
 mod plane;
 mod polyhedron;
 
-pub(crate) use body::Bits;
+pub(crate) use bits::Bits;
 pub use body::{Body, Face};
 pub use plane::Plane;
 pub(crate) use plane::matrix_from_rows;
-pub(crate) use polyhedron::{PlaneSet, Polyhedron, Vertex, box_planes};
+pub(crate) use polyhedron::{PlaneId, Polyhedron, box_planes};

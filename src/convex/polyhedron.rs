@@ -1,28 +1,32 @@
-//! The clipper: a convex polyhedron held as vertices that know their planes.
+//! The clipper: a convex polyhedron as a graph of vertices, each on three planes and with three neighbours.
 
-use super::Plane;
+use super::{Plane, bits::Bits};
 use glam::DVec3;
 
-/// The set of planes a vertex lies on, one bit each.
-pub(crate) type PlaneSet = u64;
+/// The name of a plane in a body that it bounds: a number below [`Polyhedron::MAX_PLANES`].
+pub(crate) type PlaneId = u8;
 
-/// A vertex and the planes it lies on by construction: three of them, or more where planes coincide.
+/// A vertex, the three planes it lies on, and its neighbours: the k-th one is at the other end of the edge that lies on
+/// the two planes other than the k-th.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertex {
     pub(crate) position: DVec3,
-    pub(crate) planes: PlaneSet,
+    pub(crate) planes: [PlaneId; 3],
+    neighbours: [u8; 3],
 }
 
-/// A bounded convex polyhedron with room for `N` vertices; no vertex at all is the empty set.
+/// A bounded convex polyhedron with room for 64 vertices; no vertex at all is the empty set.
 ///
-/// There is no mesh. Two vertices are the ends of an edge when they share two planes, so clipping needs only the
-/// vertices and, for each, its set of planes:
+/// There are no faces, only the graph of vertices and edges. A cut replaces the vertices outside of a plane by one
+/// new vertex for each edge that crosses it:
 ///
 /// ```text
-///     inside                          every pair (inside, outside) that shares two planes
-///   ────●─────────●────  clip plane   is a cut edge; its new vertex lies on those two planes
-///       ╎         ╎                   and on the clip plane
-///    outside   outside
+///       inside                          a new vertex lies on the two planes of its edge and on the
+///     ●────────●                        clip plane; its neighbours are the inside end of its edge and,
+///     │        │                        for each of the two planes, the other new vertex on that plane
+///   ──○────────○──── clip plane
+///     ╎        ╎
+///     outside
 /// ```
 ///
 /// # Guarantees
@@ -30,115 +34,162 @@ pub(crate) struct Vertex {
 /// - A new vertex lies on a segment between two old ones, so that rounding cannot carry it away: clipping never
 ///   leaves the body it started from by more than a rounding, whatever the planes.
 /// - A vertex exactly on a clip plane counts as inside, which is what moving the plane outwards by an infinitesimal
-///   would do. The combinatorics is therefore that of a simple polyhedron, `F` planes having at most `2F − 4` vertices,
-///   and flat bodies, segments and points are ordinary bodies with coincident vertices.
+///   would do. Every vertex is therefore on three planes, `F` planes have at most `2F − 4` vertices, and flat bodies,
+///   segments and points are ordinary bodies with coincident vertices.
+/// - Rounding can at worst classify vertices near the clip plane in a way that no plane could. A face's outline is a
+///   closed walk all the same and crosses an even number of times, so that every new vertex finds its neighbours.
 /// - Only comparisons with zero decide, no tolerance: scaling everything by a power of two changes no decision.
 #[derive(Clone, Debug)]
-pub(crate) struct Polyhedron<const N: usize> {
-    vertices: [Vertex; N],
-    distances: [f64; N],
-    len: usize,
+pub(crate) struct Polyhedron {
+    vertices: [Vertex; Self::MAX_VERTICES],
+    /// The value of the last clip plane at each vertex: scratch space.
+    values: [f64; Self::MAX_VERTICES],
+    /// The slots that hold a vertex.
+    alive: u64,
 }
 
-impl<const N: usize> Polyhedron<N> {
-    const EMPTY: Self = Self {
-        vertices: [Vertex { position: DVec3::ZERO, planes: 0 }; N],
-        distances: [0.0; N],
-        len: 0,
+impl Polyhedron {
+    /// The slots. A box, a light's six planes and a hull's ten have at most `2 · 22 − 4 = 40` vertices, and the last
+    /// cut at most 21 new ones beside the 38 before it.
+    pub(crate) const MAX_VERTICES: usize = 64;
+    /// The planes that may be named.
+    pub(crate) const MAX_PLANES: usize = 64;
+
+    pub(crate) const EMPTY: Self = Self {
+        vertices: [Vertex { position: DVec3::ZERO, planes: [0; 3], neighbours: [0; 3] }; Self::MAX_VERTICES],
+        values: [0.0; Self::MAX_VERTICES],
+        alive: 0,
     };
 
-    /// A box with the planes of [`box_planes`] as bits 0 to 5. The box may be flat.
+    /// A box, whose planes are numbered as [`box_planes`] lists them. The box may be flat.
     pub(crate) fn from_box(min: DVec3, max: DVec3) -> Self {
         let mut body = Self::EMPTY;
-        for (corner, vertex) in body.vertices.iter_mut().take(8).enumerate() {
+        body.set_box(min, max);
+        body
+    }
+
+    /// Becomes empty.
+    pub(crate) const fn clear(&mut self) {
+        self.alive = 0;
+    }
+
+    /// Becomes a box, see [`Self::from_box`].
+    pub(crate) fn set_box(&mut self, min: DVec3, max: DVec3) {
+        for (corner, vertex) in (0..8).zip(&mut self.vertices) {
             let (x, y, z) = (corner & 1, corner >> 1 & 1, corner >> 2);
-            vertex.position = DVec3::new([min.x, max.x][x], [min.y, max.y][y], [min.z, max.z][z]);
-            vertex.planes = 1 << x | 4 << y | 16 << z;
+            let pick = |side: u8, min: f64, max: f64| if side == 0 { min } else { max };
+            *vertex = Vertex {
+                position: DVec3::new(pick(x, min.x, max.x), pick(y, min.y, max.y), pick(z, min.z, max.z)),
+                planes: [x, 2 + y, 4 + z],
+                neighbours: [corner ^ 1, corner ^ 2, corner ^ 4],
+            };
         }
-        body.len = 8;
-        body
+        self.alive = 0xff;
     }
 
-    /// A body from vertices that already know their planes, or empty when there is no room for them.
-    pub(crate) fn from_vertices(vertices: &[Vertex]) -> Self {
-        let mut body = Self::EMPTY;
-        if let Some(room) = body.vertices.get_mut(..vertices.len()) {
-            room.copy_from_slice(vertices);
-            body.len = vertices.len();
-        }
-        body
+    pub(crate) fn vertices(&self) -> impl Iterator<Item = &Vertex> + Clone {
+        Bits(self.alive).map(|slot| &self.vertices[slot & LAST])
     }
 
-    pub(crate) fn vertices(&self) -> &[Vertex] {
-        &self.vertices[..self.len]
+    pub(crate) fn positions(&self) -> impl Iterator<Item = DVec3> + Clone {
+        self.vertices().map(|vertex| vertex.position)
     }
 
-    pub(crate) fn positions(&self) -> impl ExactSizeIterator<Item = DVec3> + Clone + '_ {
-        self.vertices().iter().map(|vertex| vertex.position)
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.alive == 0
     }
 
-    pub(crate) fn is_empty(&self) -> bool {
-        self.len == 0
-    }
-
-    /// Keeps what lies inside `plane`, whose bit is `bit`.
+    /// Keeps what lies inside `plane`, which is named `id`.
     ///
-    /// Where a degenerate body would need more than `N` vertices the plane is left out: the body is then larger than
-    /// it might be, never smaller.
-    pub(crate) fn clip(&mut self, plane: &Plane, bit: PlaneSet) {
-        let len = self.len;
-        let (vertices, distances) = (&mut self.vertices, &mut self.distances);
-        let mut inside = 0;
-        for (vertex, distance) in vertices[..len].iter().zip(&mut distances[..len]) {
-            *distance = plane.at(vertex.position);
-            inside += usize::from(*distance >= 0.0);
+    /// Where a degenerate body would need more vertices than there are slots the plane is left out: the body is then
+    /// larger than it might be, never smaller.
+    pub(crate) fn clip(&mut self, plane: &Plane, id: PlaneId) {
+        let mut inside = 0_u64;
+        for slot in Bits(self.alive) {
+            let value = plane.at(self.vertices[slot & LAST].position);
+            self.values[slot & LAST] = value;
+            // NaN is outside.
+            inside |= u64::from(value >= 0.0) << slot;
         }
-        if inside == len {
-            return;
+        let outside = self.alive & !inside;
+        if outside != 0 {
+            self.cut(inside, outside, id);
         }
-        if inside == 0 {
-            self.len = 0;
-            return;
-        }
+    }
 
-        // Inside vertices to the front.
-        let mut last = len;
-        for first in 0..inside {
-            if distances[first] < 0.0 {
-                last -= 1;
-                while distances[last] < 0.0 {
-                    last -= 1;
-                }
-                vertices.swap(first, last);
-                distances.swap(first, last);
-            }
-        }
-
-        let mut end = len;
-        for outer in inside..len {
-            let below = vertices[outer];
-            let below_distance = distances[outer];
-            for inner in 0..inside {
-                let shared = vertices[inner].planes & below.planes;
-                // Two bits at least.
-                if shared & shared.wrapping_sub(1) != 0 {
-                    if end == N {
-                        return;
-                    }
-                    let above = vertices[inner].position;
-                    let t = distances[inner] / (distances[inner] - below_distance);
-                    vertices[end] =
-                        Vertex { position: above + (below.position - above) * t, planes: shared | bit };
-                    end += 1;
+    /// Replaces the outside vertices.
+    fn cut(&mut self, inside: u64, outside: u64, id: PlaneId) {
+        // The edges that cross, each with a slot for its new vertex.
+        let mut crossing = [Crossing::default(); Self::MAX_VERTICES];
+        let mut count = 0;
+        let mut free = Bits(!self.alive);
+        for outer in Bits(outside) {
+            for (k, &inner) in (0..).zip(&self.vertices[outer & LAST].neighbours) {
+                if inside >> inner & 1 == 1 {
+                    let Some(slot) = free.next() else { return };
+                    crossing[count & LAST] = Crossing { outer: outer as u8, k, inner, slot: slot as u8 };
+                    count += 1;
                 }
             }
         }
-        vertices.copy_within(len..end, inside);
-        self.len = inside + end - len;
+
+        // For each plane, the new vertex on it that waits for the next one.
+        let mut waiting = [NOBODY; Self::MAX_PLANES];
+        self.alive = inside;
+        for &Crossing { outer, k, inner, slot } in &crossing[..count.min(Self::MAX_VERTICES)] {
+            let below = self.vertices[usize::from(outer) & LAST];
+            let (above_value, below_value) =
+                (self.values[usize::from(inner) & LAST], self.values[usize::from(outer) & LAST]);
+            let above = &mut self.vertices[usize::from(inner) & LAST];
+            let t = above_value / (above_value - below_value);
+            let position = above.position + (below.position - above.position) * t;
+            // Its neighbour is the new vertex now. Two edges to the same neighbour are told apart by being taken once.
+            if let Some(back) = above.neighbours.iter_mut().find(|back| **back == outer) {
+                *back = slot;
+            }
+            let (p, q) = match k {
+                0 => (below.planes[1], below.planes[2]),
+                1 => (below.planes[0], below.planes[2]),
+                _ => (below.planes[0], below.planes[1]),
+            };
+            // Its own neighbour until it finds another: no edge at all.
+            let mut neighbours = [inner, slot, slot];
+            // The edge that lies on p and the clip plane is across from q, and the other way round.
+            for (on, across) in [(p, 2), (q, 1)] {
+                let waits = &mut waiting[usize::from(on) & LAST];
+                if *waits == NOBODY {
+                    *waits = slot;
+                } else {
+                    neighbours[across] = *waits;
+                    let other = &mut self.vertices[usize::from(*waits) & LAST];
+                    let theirs = if other.planes[1] == on { 2 } else { 1 };
+                    other.neighbours[theirs] = slot;
+                    *waits = NOBODY;
+                }
+            }
+            self.vertices[usize::from(slot) & LAST] = Vertex { position, planes: [id, p, q], neighbours };
+            self.alive |= 1 << slot;
+        }
     }
 }
 
-/// The six planes of a box, in the order of the bits that [`Polyhedron::from_box`] sets.
+/// An edge that crosses a clip plane: its outside end, which of that one's neighbours the inside end is, and the slot
+/// for the new vertex between them.
+#[derive(Clone, Copy, Debug, Default)]
+struct Crossing {
+    outer: u8,
+    k: u8,
+    inner: u8,
+    slot: u8,
+}
+
+/// The last slot. Slots and planes are below 64, which indexing with this mask makes plain to the compiler.
+const LAST: usize = Polyhedron::MAX_VERTICES - 1;
+
+/// No slot.
+const NOBODY: u8 = u8::MAX;
+
+/// The six planes of a box, in the order that [`Polyhedron::from_box`] numbers them.
 pub(crate) fn box_planes(min: DVec3, max: DVec3) -> [Plane; 6] {
     [
         Plane::new(DVec3::X, -min.x),

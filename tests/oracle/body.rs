@@ -40,20 +40,10 @@ impl Body {
     ///
     /// When it is neither bounded nor empty.
     pub(crate) fn from_exact_planes(planes: Vec<ExactPlane>) -> Self {
-        let (vertices, directions): (Vec<_>, Vec<_>) = homogeneous_vertices(&planes)
-            .into_iter()
-            .partition(|ray| !ray.vector.w().is_zero());
-        assert!(
-            vertices.is_empty() || directions.is_empty(),
-            "the body is unbounded"
-        );
-        let vertices = vertices
-            .into_iter()
-            .map(|ray| Vertex {
-                point: ray.vector,
-                tight: ray.tight,
-            })
-            .collect();
+        let (vertices, directions): (Vec<_>, Vec<_>) =
+            homogeneous_vertices(&planes).into_iter().partition(|ray| !ray.vector.w().is_zero());
+        assert!(vertices.is_empty() || directions.is_empty(), "the body is unbounded");
+        let vertices = vertices.into_iter().map(|ray| Vertex { point: ray.vector, tight: ray.tight }).collect();
         Self { planes, vertices }
     }
 
@@ -69,9 +59,7 @@ impl Body {
 
     /// Whether an exact point is in it, its boundary included.
     pub(crate) fn contains_exact(&self, point: &ExactPoint) -> bool {
-        self.planes
-            .iter()
-            .all(|plane| plane.side(point) != Ordering::Less)
+        self.planes.iter().all(|plane| plane.side(point) != Ordering::Less)
     }
 
     /// Its vertices, each coordinate correctly rounded.
@@ -101,8 +89,7 @@ impl Body {
             .vertices
             .iter()
             .map(|vertex| {
-                let [a, b, c, d]: [IBig; 4] =
-                    std::array::from_fn(|i| &outside[i] * &vertex.point.coords()[i]);
+                let [a, b, c, d]: [IBig; 4] = std::array::from_fn(|i| &outside[i] * &vertex.point.coords()[i]);
                 ratio(&(a + b + c + d), vertex.point.w(), exponent)
             })
             .fold(f64::NEG_INFINITY, f64::max);

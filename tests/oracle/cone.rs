@@ -26,19 +26,14 @@ pub(crate) struct Ray {
 /// A cone that contains whole lines has no extreme rays of its own; it is split into those lines,
 /// given in both directions, and the rest of it orthogonal to them.
 pub(crate) fn generators(half_spaces: &[Homogeneous]) -> Vec<Ray> {
-    let lines: Vec<Homogeneous> = orthogonal_complement(half_spaces)
-        .into_iter()
-        .flat_map(|line| [line.clone(), line.negated()])
-        .collect();
+    let lines: Vec<Homogeneous> =
+        orthogonal_complement(half_spaces).into_iter().flat_map(|line| [line.clone(), line.negated()]).collect();
     let constraints = [half_spaces, &lines].concat();
     let mut rays = extreme_rays(&constraints);
     for ray in &mut rays {
         ray.tight.retain(|&index| index < half_spaces.len());
     }
-    rays.extend(lines.into_iter().map(|vector| Ray {
-        vector,
-        tight: (0..half_spaces.len()).collect(),
-    }));
+    rays.extend(lines.into_iter().map(|vector| Ray { vector, tight: (0..half_spaces.len()).collect() }));
     rays
 }
 
@@ -53,10 +48,7 @@ fn extreme_rays(constraints: &[Homogeneous]) -> Vec<Ray> {
             let rounded = a.rounded().zip(b.rounded()).map(|(a, b)| minors(a, b));
             let mut exact = None;
             for (k, c) in constraints.iter().enumerate().skip(j + 1) {
-                let candidate = rounded
-                    .as_ref()
-                    .zip(c.rounded())
-                    .map(|(minors, c)| cross(minors, c));
+                let candidate = rounded.as_ref().zip(c.rounded()).map(|(minors, c)| cross(minors, c));
                 if candidate.is_some_and(|x| certainly_outside(&x, constraints)) {
                     continue;
                 }
@@ -77,10 +69,7 @@ fn extreme_rays(constraints: &[Homogeneous]) -> Vec<Ray> {
 /// Whether both the rounded candidate `x` and its opposite certainly violate a constraint.
 fn certainly_outside(x: &[Bounded; 4], constraints: &[Homogeneous]) -> bool {
     let (mut above, mut below) = (false, false);
-    for sign in constraints
-        .iter()
-        .filter_map(|constraint| dot(constraint.rounded()?, x).sign())
-    {
+    for sign in constraints.iter().filter_map(|constraint| dot(constraint.rounded()?, x).sign()) {
         above |= sign == Ordering::Greater;
         below |= sign == Ordering::Less;
         if above && below {
@@ -99,11 +88,7 @@ fn oriented_ray(x: Homogeneous, triple: [usize; 3], constraints: &[Homogeneous])
     // Some constraint is not tight: a cone without lines has four independent ones.
     let mut orientation = Ordering::Equal;
     for (index, constraint) in constraints.iter().enumerate() {
-        let side = if triple.contains(&index) {
-            Ordering::Equal
-        } else {
-            constraint.side(&x)
-        };
+        let side = if triple.contains(&index) { Ordering::Equal } else { constraint.side(&x) };
         if side == Ordering::Equal {
             tight.push(index);
         } else if orientation == Ordering::Equal {
@@ -112,15 +97,8 @@ fn oriented_ray(x: Homogeneous, triple: [usize; 3], constraints: &[Homogeneous])
             return None;
         }
     }
-    let vector = if orientation == Ordering::Less {
-        x.negated()
-    } else {
-        x
-    };
-    Some(Ray {
-        vector: vector.reduced(),
-        tight,
-    })
+    let vector = if orientation == Ordering::Less { x.negated() } else { x };
+    Some(Ray { vector: vector.reduced(), tight })
 }
 
 /// A basis of all x with v · x = 0 for every v in `vectors`.
@@ -151,9 +129,7 @@ fn extend_independent(rows: &mut Vec<Homogeneous>, candidates: &[Homogeneous], l
 fn is_independent(rows: &[Homogeneous], x: &Homogeneous) -> bool {
     match rows {
         [] => !x.is_zero(),
-        [a] => minors(a.coords(), x.coords())
-            .iter()
-            .any(|minor| !minor.is_zero()),
+        [a] => minors(a.coords(), x.coords()).iter().any(|minor| !minor.is_zero()),
         [a, b] => !common(a, b, x).is_zero(),
         [a, b, c] => !common(a, b, c).dot(x).is_zero(),
         _ => false,
@@ -167,7 +143,5 @@ fn common(a: &Homogeneous, b: &Homogeneous, c: &Homogeneous) -> Homogeneous {
 
 /// The four coordinate axes.
 fn axes() -> [Homogeneous; 4] {
-    std::array::from_fn(|axis| {
-        Homogeneous::new(std::array::from_fn(|i| IBig::from(u8::from(i == axis))))
-    })
+    std::array::from_fn(|axis| Homogeneous::new(std::array::from_fn(|i| IBig::from(u8::from(i == axis)))))
 }

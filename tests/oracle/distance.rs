@@ -47,8 +47,7 @@ impl Body {
         let [x, y, z] = std::array::from_fn(|i| point.xyz()[i] * &norm2 - &height * normal[i]);
         let weight = point.w() * &norm2;
         let foot = Homogeneous::new([x, y, z, weight]);
-        self.contains_exact(&foot)
-            .then(|| sqrt_ratio(height.sqr(), point.w().sqr() * norm2.unsigned_abs()))
+        self.contains_exact(&foot).then(|| sqrt_ratio(height.sqr(), point.w().sqr() * norm2.unsigned_abs()))
     }
 
     /// The distance to the nearest of the edges and vertices.
@@ -68,14 +67,9 @@ impl Body {
         let size = seen.iter().flatten().fold(0.0, |size, x| x.abs().max(size));
         // In units of that size no square over- or underflows that matters.
         let seen: Vec<[f64; 3]> = seen.iter().map(|v| v.map(|x| x / size)).collect();
-        let segments: Vec<(usize, usize, f64)> = self
-            .edges()
-            .map(|(a, b)| (a, b, segment_distance(seen[a], seen[b])))
-            .collect();
-        let nearest = segments
-            .iter()
-            .map(|&(.., distance)| distance)
-            .fold(f64::INFINITY, f64::min);
+        let segments: Vec<(usize, usize, f64)> =
+            self.edges().map(|(a, b)| (a, b, segment_distance(seen[a], seen[b]))).collect();
+        let nearest = segments.iter().map(|&(.., distance)| distance).fold(f64::INFINITY, f64::min);
         segments
             .into_iter()
             .filter(|&(.., distance)| distance <= nearest + SEGMENT_SLACK)
@@ -105,11 +99,7 @@ fn segment_distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     let along: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);
     let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
     let length2 = dot(along, along);
-    let parameter = if length2 > 0.0 {
-        (-dot(a, along) / length2).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
+    let parameter = if length2 > 0.0 { (-dot(a, along) / length2).clamp(0.0, 1.0) } else { 0.0 };
     let foot: [f64; 3] = std::array::from_fn(|i| a[i] + parameter * along[i]);
     foot[0].hypot(foot[1]).hypot(foot[2])
 }
@@ -137,10 +127,7 @@ fn exact_segment_distance(a: &ExactPoint, b: &ExactPoint, point: &ExactPoint) ->
 /// The distance between two points, rounded at the end.
 fn exact_point_distance(a: &ExactPoint, b: &ExactPoint) -> f64 {
     let between = from_to(a, b);
-    sqrt_ratio(
-        dot3(&between, &between).unsigned_abs(),
-        (a.w() * b.w()).sqr(),
-    )
+    sqrt_ratio(dot3(&between, &between).unsigned_abs(), (a.w() * b.w()).sqr())
 }
 
 /// The vector from one point to another, times both their weights.

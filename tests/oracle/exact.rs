@@ -17,12 +17,8 @@ const QUOTIENT_BITS: i64 = 66;
 /// When a value is not finite.
 pub(crate) fn integers<const N: usize>(values: [f64; N]) -> ([IBig; N], i64) {
     let parts = values.map(decompose);
-    let exponent = parts
-        .iter()
-        .filter(|(mantissa, _)| *mantissa != 0)
-        .map(|&(_, exponent)| exponent)
-        .min()
-        .unwrap_or(0);
+    let exponent =
+        parts.iter().filter(|(mantissa, _)| *mantissa != 0).map(|&(_, exponent)| exponent).min().unwrap_or(0);
     let scaled = parts.map(|(mantissa, own)| match mantissa {
         0 => IBig::ZERO,
         _ => IBig::from(mantissa) << (own - exponent) as usize,
@@ -40,33 +36,17 @@ fn decompose(value: f64) -> (i64, i64) {
         0 => (fraction, -1074),
         _ => (fraction | 1 << MANTISSA_BITS, biased - 1075),
     };
-    (
-        if value.is_sign_negative() {
-            -mantissa
-        } else {
-            mantissa
-        },
-        exponent,
-    )
+    (if value.is_sign_negative() { -mantissa } else { mantissa }, exponent)
 }
 
 /// `value = f · 2^e` with `f` correctly rounded; `f` is zero only when the value is.
 pub(crate) fn leading(value: &IBig) -> (f64, i64) {
     let magnitude = value.unsigned_abs();
     let dropped = magnitude.bit_len().saturating_sub(64);
-    let sticky = magnitude
-        .trailing_zeros()
-        .is_some_and(|zeros| zeros < dropped);
+    let sticky = magnitude.trailing_zeros().is_some_and(|zeros| zeros < dropped);
     let top = u64::try_from(magnitude >> dropped).expect("64 bits are kept");
     let rounded = (top | u64::from(sticky)) as f64;
-    (
-        if *value < IBig::ZERO {
-            -rounded
-        } else {
-            rounded
-        },
-        dropped as i64,
-    )
+    (if *value < IBig::ZERO { -rounded } else { rounded }, dropped as i64)
 }
 
 /// `numerator / denominator · 2^exponent`, correctly rounded (twice among subnormal numbers).
@@ -75,25 +55,15 @@ pub(crate) fn leading(value: &IBig) -> (f64, i64) {
 ///
 /// When the denominator is not positive.
 pub(crate) fn ratio(numerator: &IBig, denominator: &IBig, exponent: i64) -> f64 {
-    assert!(
-        *denominator > IBig::ZERO,
-        "a ratio's denominator is positive"
-    );
+    assert!(*denominator > IBig::ZERO, "a ratio's denominator is positive");
     if numerator.is_zero() {
         return 0.0;
     }
     let magnitude = numerator.unsigned_abs();
     let denominator = denominator.unsigned_abs();
     let shift = QUOTIENT_BITS - magnitude.bit_len() as i64 + denominator.bit_len() as i64;
-    let quotient = scale(
-        shifted_quotient(magnitude, denominator, shift),
-        exponent - shift,
-    );
-    if *numerator < IBig::ZERO {
-        -quotient
-    } else {
-        quotient
-    }
+    let quotient = scale(shifted_quotient(magnitude, denominator, shift), exponent - shift);
+    if *numerator < IBig::ZERO { -quotient } else { quotient }
 }
 
 /// The square root of `numerator / denominator`, to within an ulp.
@@ -104,10 +74,7 @@ pub(crate) fn sqrt_ratio(numerator: UBig, denominator: UBig) -> f64 {
     let shift = QUOTIENT_BITS - numerator.bit_len() as i64 + denominator.bit_len() as i64;
     // An even shift is a whole power of two once the root is taken.
     let shift = shift - shift.rem_euclid(2);
-    scale(
-        shifted_quotient(numerator, denominator, shift).sqrt(),
-        -shift / 2,
-    )
+    scale(shifted_quotient(numerator, denominator, shift).sqrt(), -shift / 2)
 }
 
 /// `numerator · 2^shift / denominator`, correctly rounded, for a shift that leaves about

@@ -57,16 +57,9 @@ impl Homogeneous {
     /// Cross products of cross products would otherwise grow threefold in length at every step,
     /// though what they stand for is most often one of the planes they came from.
     pub(crate) fn reduced(self) -> Self {
-        let divisor = self.coords.iter().filter(|coord| !coord.is_zero()).fold(
-            UBig::ZERO,
-            |divisor, coord| {
-                if divisor.is_zero() {
-                    coord.gcd(&IBig::ZERO)
-                } else {
-                    divisor.gcd(coord)
-                }
-            },
-        );
+        let divisor = self.coords.iter().filter(|coord| !coord.is_zero()).fold(UBig::ZERO, |divisor, coord| {
+            if divisor.is_zero() { coord.gcd(&IBig::ZERO) } else { divisor.gcd(coord) }
+        });
         if divisor <= UBig::ONE {
             return self;
         }
@@ -122,8 +115,7 @@ impl Homogeneous {
 /// The components times a power of two that brings the largest to 1/2 to 1.
 fn round(coords: &[IBig; 4]) -> Option<[Bounded; 4]> {
     let bits = coords.iter().map(|coord| coord.bit_len()).max()? as i64;
-    let in_range =
-        |coord: &IBig| coord.is_zero() || bits - (coord.bit_len() as i64) < FILTER_RANGE_BITS;
+    let in_range = |coord: &IBig| coord.is_zero() || bits - (coord.bit_len() as i64) < FILTER_RANGE_BITS;
     coords.iter().all(in_range).then(|| {
         coords.each_ref().map(|coord| {
             let (value, exponent) = leading(coord);

@@ -15,10 +15,7 @@ use crate::homogeneous::{ExactPlane, ExactPoint, Homogeneous};
 pub(crate) fn hull(view: &[[f64; 4]], light: [f64; 4]) -> Vec<ExactPlane> {
     assert!(light[3] >= 0.0, "a light's weight is not negative");
     let planes: Vec<ExactPlane> = view.iter().copied().map(Homogeneous::from_f64).collect();
-    let mut points: Vec<ExactPoint> = homogeneous_vertices(&planes)
-        .into_iter()
-        .map(|ray| ray.vector)
-        .collect();
+    let mut points: Vec<ExactPoint> = homogeneous_vertices(&planes).into_iter().map(|ray| ray.vector).collect();
     if points.iter().all(|point| point.w().is_zero()) {
         return vec![nothing()];
     }

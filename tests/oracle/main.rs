@@ -12,11 +12,14 @@
 //! - `hull`, `body`: the half-spaces of conv(V ∪ {l}), and the vertices of a body.
 //! - `distance`, `margin`: how far a point is from a body, and a body from being empty.
 
+#[path = "../arbitrary/mod.rs"]
+mod arbitrary;
 mod body;
 mod checks;
 mod cone;
 mod distance;
 mod exact;
+mod focus;
 mod homogeneous;
 mod hull;
 mod margin;

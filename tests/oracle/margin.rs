@@ -27,9 +27,7 @@ const REFINEMENTS: usize = 10;
 pub(crate) fn smallest_inflation(planes: &[ExactPlane]) -> f64 {
     let meets = |offset: f64| {
         let moved: Vec<ExactPlane> = planes.iter().map(|plane| moved(plane, offset)).collect();
-        homogeneous_vertices(&moved)
-            .iter()
-            .any(|vertex| !vertex.vector.w().is_zero())
+        homogeneous_vertices(&moved).iter().any(|vertex| !vertex.vector.w().is_zero())
     };
     if meets(0.0) {
         // The offset grows until the intersection is empty; what is returned is the last that
@@ -52,11 +50,7 @@ fn threshold(reached: impl Fn(f64) -> bool) -> (f64, f64) {
     }
     while high - low > 1 {
         let middle = low.midpoint(high);
-        *(if reached(power_of_two(middle)) {
-            &mut high
-        } else {
-            &mut low
-        }) = middle;
+        *(if reached(power_of_two(middle)) { &mut high } else { &mut low }) = middle;
     }
     let (mut low, mut high) = (power_of_two(low), power_of_two(high));
     for _ in 0..REFINEMENTS {

@@ -64,10 +64,7 @@ const RELATIVE_ERROR: f64 = 1.0 / (1_u64 << 48) as f64;
 impl Bounded {
     /// A correctly rounded input.
     pub(crate) fn new(value: f64) -> Self {
-        Self {
-            value,
-            magnitude: value.abs(),
-        }
+        Self { value, magnitude: value.abs() }
     }
 
     /// The sign of the exact value, where it is certain.
@@ -87,31 +84,19 @@ impl Bounded {
 
 impl Scalar for Bounded {
     fn times(&self, other: &Self) -> Self {
-        Self {
-            value: self.value * other.value,
-            magnitude: self.magnitude * other.magnitude,
-        }
+        Self { value: self.value * other.value, magnitude: self.magnitude * other.magnitude }
     }
 
     fn plus(self, other: Self) -> Self {
-        Self {
-            value: self.value + other.value,
-            magnitude: self.magnitude + other.magnitude,
-        }
+        Self { value: self.value + other.value, magnitude: self.magnitude + other.magnitude }
     }
 
     fn minus(self, other: Self) -> Self {
-        Self {
-            value: self.value - other.value,
-            magnitude: self.magnitude + other.magnitude,
-        }
+        Self { value: self.value - other.value, magnitude: self.magnitude + other.magnitude }
     }
 
     fn negated(self) -> Self {
-        Self {
-            value: -self.value,
-            ..self
-        }
+        Self { value: -self.value, ..self }
     }
 }
 
@@ -123,8 +108,7 @@ pub(crate) fn dot<T: Scalar>(a: &[T; 4], b: &[T; 4]) -> T {
 
 /// The 2×2 minors of two 4-vectors, their line's Plücker coordinates: 01, 02, 03, 12, 13, 23.
 pub(crate) fn minors<T: Scalar>(a: &[T; 4], b: &[T; 4]) -> [T; 6] {
-    [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]
-        .map(|(i, j)| a[i].times(&b[j]).minus(a[j].times(&b[i])))
+    [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)].map(|(i, j)| a[i].times(&b[j]).minus(a[j].times(&b[i])))
 }
 
 /// The cross product of two 4-vectors, given by their `minors`, and a third: orthogonal to all
@@ -133,9 +117,7 @@ pub(crate) fn minors<T: Scalar>(a: &[T; 4], b: &[T; 4]) -> [T; 6] {
 pub(crate) fn cross<T: Scalar>(minors: &[T; 6], c: &[T; 4]) -> [T; 4] {
     let [m01, m02, m03, m12, m13, m23] = minors;
     let [c0, c1, c2, c3] = c;
-    let det = |p: (&T, &T), q: (&T, &T), r: (&T, &T)| {
-        p.0.times(p.1).minus(q.0.times(q.1)).plus(r.0.times(r.1))
-    };
+    let det = |p: (&T, &T), q: (&T, &T), r: (&T, &T)| p.0.times(p.1).minus(q.0.times(q.1)).plus(r.0.times(r.1));
     [
         det((c1, m23), (c2, m13), (c3, m12)),
         det((c0, m23), (c2, m03), (c3, m02)).negated(),

@@ -22,7 +22,7 @@ pub struct Sample {
     pub distance: f64,
 }
 
-/// A picture in the making, [`SAMPLES`] times as wide and high as it will be.
+/// A picture in the making, twice as wide and high as it will be: four samples make a pixel.
 #[derive(Clone, Debug)]
 pub struct Canvas {
     /// Samples in a row.
@@ -37,7 +37,10 @@ impl Canvas {
     /// Fills a canvas for a picture of so many pixels by asking `sample` about each sample: its column, its row, and
     /// the numbers of columns and rows. All processors take part.
     pub fn render(
-        width: u32, height: u32, progress: &ProgressBar, sample: impl Fn(u32, u32, u32, u32) -> Sample + Sync,
+        width: u32,
+        height: u32,
+        progress: &ProgressBar,
+        sample: impl Fn(u32, u32, u32, u32) -> Sample + Sync,
     ) -> Self {
         let (width, height) = (width * SAMPLES, height * SAMPLES);
         progress.set_length(u64::from(height));
@@ -75,7 +78,7 @@ impl Canvas {
 
 /// A linear intensity as an sRGB byte.
 #[must_use]
-pub fn encode(linear: f32) -> u8 {
+pub(super) fn encode(linear: f32) -> u8 {
     let linear = linear.clamp(0.0, 1.0);
     let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
     (255.0 * encoded).round() as u8
@@ -83,7 +86,7 @@ pub fn encode(linear: f32) -> u8 {
 
 /// Mixes two colours; `amount` 0 is the first and 1 the second.
 #[must_use]
-pub fn mix(first: Colour, second: Colour, amount: f32) -> Colour {
+pub(super) fn mix(first: Colour, second: Colour, amount: f32) -> Colour {
     [0, 1, 2].map(|i| first[i] + amount * (second[i] - first[i]))
 }
 

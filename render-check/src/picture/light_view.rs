@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 use image::{Rgb, RgbImage};
-use shadowfit::{Body, View};
 use shadowfit::glam::{DVec2, DVec3};
+use shadowfit::{Body, View};
 
 use super::canvas::{Canvas, Sample, encode};
 use super::lens::Lens;
@@ -17,6 +17,10 @@ use crate::trace::Tracer;
 
 /// Room left around what must be seen, as a part of it.
 const MARGIN: f64 = 1.12;
+
+/// The camera and the far end of its frustum are left out of the picture where they would make it wider than this,
+/// beside the focus body alone.
+const MOST_SHRINKING: f64 = 1.7;
 
 /// The widest a lamp's picture opens to either side, as a tangent: 75 degrees.
 const WIDEST_SLOPE: f64 = 3.732;
@@ -36,7 +40,9 @@ pub fn light_lens(light: &LightSpec, view: &View, body: &Body, mesh: &Mesh, aspe
     let centre = subject.iter().sum::<DVec3>() / subject.len() as f64;
     let axes_towards = |forward: DVec3| {
         let up = view.forward().reject_from_normalized(forward).try_normalize();
-        let up = up.unwrap_or_else(|| view.up().reject_from_normalized(forward).normalize_or(forward.any_orthonormal_vector()));
+        let up = up.unwrap_or_else(|| {
+            view.up().reject_from_normalized(forward).normalize_or(forward.any_orthonormal_vector())
+        });
         [forward.cross(up), up, forward]
     };
     match *light {
@@ -56,20 +62,28 @@ pub fn light_lens(light: &LightSpec, view: &View, body: &Body, mesh: &Mesh, aspe
                 if depth > 0.0 { (axis.dot(p - position) / depth).abs() } else { f64::INFINITY }
             };
             let widest = |axis: DVec3| subject.iter().map(|&p| slope(axis, p)).fold(0.0, f64::max);
-            let vertical = (MARGIN * widest(axes[1]).max(widest(axes[0]) / aspect)).clamp(0.05, WIDEST_SLOPE / aspect.max(1.0));
-            let far = 1.01 * corners(min, max).iter().chain(&subject).map(|p| p.distance(position)).fold(0.0, f64::max);
+            let vertical = (MARGIN * widest(axes[1]).max(widest(axes[0]) / aspect))
+                .clamp(0.05, WIDEST_SLOPE / aspect.max(1.0));
+            let far =
+                1.01 * corners(min, max).iter().chain(&subject).map(|p| p.distance(position)).fold(0.0, f64::max);
             Lens::perspective(position, axes, DVec2::new(vertical * aspect, vertical), [1e-3 * far, far])
         }
     }
 }
 
-fn parallel_lens(axes: [DVec3; 3], view: &View, subject: &[DVec3], bounds: [DVec3; 2], aspect: f64) -> Result<Lens> {
+fn parallel_lens(
+    axes: [DVec3; 3],
+    view: &View,
+    subject: &[DVec3],
+    bounds: [DVec3; 2],
+    aspect: f64,
+) -> Result<Lens> {
     let [right, up, forward] = axes;
     let window = |points: &[DVec3]| {
-        points.iter().map(|&p| DVec2::new(right.dot(p), up.dot(p))).fold(
-            (DVec2::INFINITY, DVec2::NEG_INFINITY),
-            |(low, high), p| (low.min(p), high.max(p)),
-        )
+        points
+            .iter()
+            .map(|&p| DVec2::new(right.dot(p), up.dot(p)))
+            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
     };
     // Rather lose the far end of a long frustum than shrink the body to a speck.
     let size = |points: &[DVec3]| window(points).1 - window(points).0;
@@ -77,7 +91,7 @@ fn parallel_lens(axes: [DVec3; 3], view: &View, subject: &[DVec3], bounds: [DVec
     let frustum = view.corners().map_or_else(Vec::new, |corners| corners.to_vec());
     for candidates in [&[view.eye()][..], &frustum] {
         let with_candidates = [&shown, candidates].concat();
-        if size(&with_candidates).max_element() <= 2.5 * size(subject).max_element() {
+        if size(&with_candidates).max_element() <= MOST_SHRINKING * size(subject).max_element() {
             shown = with_candidates;
         }
     }
@@ -85,7 +99,8 @@ fn parallel_lens(axes: [DVec3; 3], view: &View, subject: &[DVec3], bounds: [DVec
     let half = 0.5 * MARGIN * (high - low);
     let half_height = half.y.max(half.x / aspect);
     let depths: Vec<f64> = corners(bounds[0], bounds[1]).iter().chain(&shown).map(|&p| forward.dot(p)).collect();
-    let (nearest, farthest) = depths.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &d| (a.min(d), b.max(d)));
+    let (nearest, farthest) =
+        depths.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &d| (a.min(d), b.max(d)));
     let room = 0.01 * (farthest - nearest).max(half_height);
     let middle = 0.5 * (low + high);
     let centre = middle.x * right + middle.y * up + (nearest - room) * forward;
@@ -94,16 +109,16 @@ fn parallel_lens(axes: [DVec3; 3], view: &View, subject: &[DVec3], bounds: [DVec
 
 fn corners(min: DVec3, max: DVec3) -> [DVec3; 8] {
     [0, 1, 2, 3, 4, 5, 6, 7].map(|i| {
-        let pick = |axis: usize| if i >> axis & 1 == 1 { max[axis] } else { min[axis] };
+        let pick = |axis: usize| {
+            if i >> axis & 1 == 1 { max[axis] } else { min[axis] }
+        };
         DVec3::new(pick(0), pick(1), pick(2))
     })
 }
 
 /// Casts the light's picture through its lens and draws the camera's frustum and the focus body's edges over it.
 #[must_use]
-pub fn light_view(
-    lens: &Lens, view: &View, tracer: &Tracer, body: &Body, [width, height]: [u32; 2],
-) -> RgbImage {
+pub fn light_view(lens: &Lens, view: &View, tracer: &Tracer, body: &Body, [width, height]: [u32; 2]) -> RgbImage {
     let bar = progress::bar("the light's view", 0);
     let mut canvas = Canvas::render(width, height, &bar, |x, y, width, height| {
         let seen = lens.ray_through_pixel(x, y, width, height).and_then(|ray| Some((ray, tracer.first_hit(&ray)?)));
@@ -120,7 +135,10 @@ pub fn light_view(
     draw_lines(&mut canvas, lens, &edges, &Pen::new(BODY_COLOUR));
     let mut image = canvas.to_image();
     let [body_colour, frustum_colour] = [BODY_COLOUR, FRUSTUM_COLOUR].map(|c| Rgb(c.map(|c| encode(1.3 * c))));
-    text::caption(&mut image, &[("H ", body_colour), ("camera ", frustum_colour), ("dark: outside H", Rgb([210; 3]))]);
+    text::caption(
+        &mut image,
+        &[("H ", body_colour), ("camera ", frustum_colour), ("dark: outside H", Rgb([210; 3]))],
+    );
     image
 }
 
@@ -130,7 +148,9 @@ fn frustum_lines(view: &View, mesh: &Mesh) -> Vec<Line> {
     let (min, max) = mesh.bounds();
     let end = 2.0 * (max - min).length() + view.eye().distance(0.5 * (min + max));
     let far = view.far().min(end);
-    let Ok(lens) = Lens::of_view(view) else { return Vec::new() };
+    let Ok(lens) = Lens::of_view(view) else {
+        return Vec::new();
+    };
     let corners_at = |depth: f64| {
         [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| {
             let ray = lens.ray(DVec2::new(x, y));

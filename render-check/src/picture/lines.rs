@@ -48,7 +48,9 @@ pub fn draw_lines(canvas: &mut Canvas, lens: &Lens, lines: &[Line], pen: &Pen) {
 }
 
 fn stroke(canvas: &Canvas, lens: &Lens, line: &Line, pen: &Pen, ink: &mut [f32]) {
-    let Some((start, end)) = clip_to_picture(lens, line) else { return };
+    let Some((start, end)) = clip_to_picture(lens, line) else {
+        return;
+    };
     let size = DVec2::new(f64::from(canvas.width), f64::from(canvas.height));
     let to_samples = |ndc: DVec3| 0.5 * size * DVec2::new(ndc.x + 1.0, 1.0 - ndc.y);
     let length = (to_samples(end) - to_samples(start)).length();
@@ -102,7 +104,9 @@ fn clip_to_picture(lens: &Lens, line: &Line) -> Option<(DVec3, DVec3)> {
 /// Whether the picture shows something nearer than the point at `ndc`. The neighbours are asked too: where a line lies
 /// in a surface seen at a grazing angle, the next sample can be far nearer.
 fn is_hidden(canvas: &Canvas, lens: &Lens, ndc: DVec3, place: DVec2, sample_extent: DVec2) -> bool {
-    let (Some(point), Some(ray)) = (lens.unproject(ndc), lens.ray(ndc.truncate())) else { return false };
+    let (Some(point), Some(ray)) = (lens.unproject(ndc), lens.ray(ndc.truncate())) else {
+        return false;
+    };
     let distance = (point - ray.origin).dot(ray.direction);
     let sample_width = lens.unproject(ndc + DVec3::X * sample_extent.x).map_or(0.0, |next| next.distance(point));
     let mut farthest_shown = 0.0_f64;
@@ -121,7 +125,8 @@ fn stamp(canvas: &Canvas, ink: &mut [f32], place: DVec2, radius: f64, opacity: f
 
 /// Visits the samples of a square about a place: the index of each, and its distance from the place.
 fn for_samples_around(canvas: &Canvas, place: DVec2, reach: f64, mut visit: impl FnMut(usize, f64)) {
-    let range = |centre: f64, size: u32| (centre - reach).max(0.0) as u32..((centre + reach).max(0.0) as u32 + 1).min(size);
+    let range =
+        |centre: f64, size: u32| (centre - reach).max(0.0) as u32..((centre + reach).max(0.0) as u32 + 1).min(size);
     for y in range(place.y, canvas.height) {
         for x in range(place.x, canvas.width) {
             let centre = DVec2::new(f64::from(x), f64::from(y)) + 0.5;

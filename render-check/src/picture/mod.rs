@@ -13,7 +13,7 @@ pub use canvas::{Canvas, Colour, Sample, save};
 pub use lens::Lens;
 pub use light_view::{light_lens, light_view};
 pub use lines::{Line, Pen, draw_lines};
-pub use map_view::{DepthMap, maps_view};
+pub use map_view::{DepthMap, TitledMap, maps_view};
 pub use shade::Lighting;
 pub use view::camera_view;
 
@@ -22,3 +22,6 @@ const BODY_COLOUR: Colour = [1.0, 0.28, 0.02];
 
 /// The camera's frustum.
 const FRUSTUM_COLOUR: Colour = [0.03, 0.30, 0.95];
+
+#[cfg(test)]
+mod tests;

@@ -27,7 +27,7 @@ impl Lighting {
     pub fn shade(&self, tracer: &Tracer, hit: &Hit, ray: &Ray) -> Colour {
         let base = tracer.mesh().colours[hit.triangle];
         let normal = hit.shading_normal;
-        let sky = 0.10 + 0.07 * normal.y + 0.06 * normal.dot(-ray.direction).max(0.0);
+        let sky = 0.13 + 0.07 * normal.y + 0.06 * normal.dot(-ray.direction).max(0.0);
         let direct = 0.95 * self.direct(tracer, hit, ray);
         let light = [sky + direct, sky + 0.94 * direct, 1.2 * sky + 0.84 * direct];
         [0, 1, 2].map(|i| base[i] * light[i] as f32)

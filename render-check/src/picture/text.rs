@@ -14,7 +14,9 @@ pub(super) fn write(image: &mut RgbImage, text: &str, left: u32, top: u32, colou
         let rows = BASIC_LEGACY.get(letter as usize).copied().unwrap_or(BASIC_LEGACY['?' as usize]);
         for (y, x) in (0..LETTER).flat_map(|y| (0..LETTER).map(move |x| (y, x))) {
             let is_set = rows[(y / SCALE) as usize] >> (x / SCALE) & 1 == 1;
-            if let (true, Some(pixel)) = (is_set, image.get_pixel_mut_checked(left + i as u32 * LETTER + x, top + y)) {
+            if let (true, Some(pixel)) =
+                (is_set, image.get_pixel_mut_checked(left + i as u32 * LETTER + x, top + y))
+            {
                 *pixel = colour;
             }
         }
@@ -48,7 +50,9 @@ mod tests {
     fn letters_leave_their_dots() {
         let mut image = RgbImage::new(64, 20);
         write(&mut image, "I.", 2, 2, Rgb([255; 3]));
-        let dots = |columns: std::ops::Range<u32>| columns.filter(|&x| (0..20).any(|y| image.get_pixel(x, y).0[0] > 0)).count();
+        let dots = |columns: std::ops::Range<u32>| {
+            columns.filter(|&x| (0..20).any(|y| image.get_pixel(x, y).0[0] > 0)).count()
+        };
         assert!(dots(2..18) > 0 && dots(18..34) > 0 && dots(34..64) == 0);
     }
 

@@ -5,12 +5,12 @@ use shadowfit::View;
 
 use anyhow::Result;
 
+use super::BODY_COLOUR;
 use super::canvas::{Canvas, Sample, encode};
 use super::lens::Lens;
 use super::lines::{Line, Pen, draw_lines};
 use super::shade::{Lighting, background};
 use super::text;
-use super::BODY_COLOUR;
 use crate::progress;
 use crate::trace::Tracer;
 
@@ -20,7 +20,11 @@ use crate::trace::Tracer;
 ///
 /// When the view's matrix has no inverse.
 pub fn camera_view(
-    view: &View, lighting: &Lighting, tracer: &Tracer, body: &[Line], [width, height]: [u32; 2],
+    view: &View,
+    lighting: &Lighting,
+    tracer: &Tracer,
+    body: &[Line],
+    [width, height]: [u32; 2],
 ) -> Result<RgbImage> {
     let lens = Lens::of_view(view)?;
     let bar = progress::bar("the camera's view", 0);

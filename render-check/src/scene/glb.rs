@@ -4,10 +4,11 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
+use gltf::json::validation::Checked;
 use gltf::khr_lights_punctual::Kind;
 use gltf::mesh::Mode;
 use gltf::scene::Transform;
-use gltf::{Gltf, Node, Primitive, Semantic};
+use gltf::{Document, Gltf, Node, Primitive, Semantic};
 use shadowfit::glam::{DMat4, DQuat, DVec3, Vec3};
 
 use super::accessor::{read_indices, read_vectors};
@@ -31,7 +32,7 @@ pub(super) fn parse(bytes: &[u8], name: String) -> Result<LoadedScene> {
         "it should be {stated_length} bytes long but is {}: fetch or export it again",
         bytes.len()
     );
-    let file = Gltf::from_slice(bytes).map_err(first_complaint)?;
+    let file = read_description(bytes).map_err(first_complaint)?;
 
     let mut loader = Loader {
         binary: file.blob.as_deref().unwrap_or_default(),
@@ -64,11 +65,32 @@ pub(super) fn parse(bytes: &[u8], name: String) -> Result<LoadedScene> {
     Ok(LoadedScene { name, mesh, camera, lights, left_out })
 }
 
+/// Reads and validates a file. `Gltf::from_slice` would do both at once, but its validation panics on positions with
+/// an accessor that does not exist, so these are looked for in between.
+fn read_description(bytes: &[u8]) -> Result<Gltf, gltf::Error> {
+    let unchecked = Gltf::from_slice_without_validation(bytes)?;
+    let description = unchecked.document.as_json();
+    for (mesh, primitive) in
+        description.meshes.iter().flat_map(|mesh| mesh.primitives.iter().map(move |p| (mesh, p)))
+    {
+        let position = primitive.attributes.get(&Checked::Valid(Semantic::Positions));
+        if position.is_some_and(|accessor| accessor.value() >= description.accessors.len()) {
+            let mesh = mesh.name.clone().unwrap_or_default();
+            let path = gltf::json::Path::new().field("meshes").key(&mesh).field("POSITION");
+            return Err(gltf::Error::Validation(vec![(path, gltf::json::validation::Error::IndexOutOfBounds)]));
+        }
+    }
+    let blob = unchecked.blob;
+    Ok(Gltf { document: Document::from_json(unchecked.document.into_json())?, blob })
+}
+
 /// glTF files that break one rule often break it a thousand times.
 fn first_complaint(error: gltf::Error) -> anyhow::Error {
     match error {
         gltf::Error::Validation(all) => match all.first() {
-            Some((path, complaint)) => anyhow!("it breaks the rules of glTF: {complaint} at {path}"),
+            Some((path, complaint)) => {
+                anyhow!("it breaks the rules of glTF: {complaint} at {path}")
+            }
             None => anyhow!("it breaks the rules of glTF"),
         },
         gltf::Error::Deserialize(error) => anyhow!("its description is broken: {error}"),
@@ -145,9 +167,12 @@ impl Loader<'_> {
         let Some(positions) = primitive.get(&Semantic::Positions) else {
             bail!("it has no positions");
         };
-        let positions: Vec<DVec3> = read_vectors(&positions, self.binary).context("positions")?.into_iter().map(double).collect();
+        let positions: Vec<DVec3> =
+            read_vectors(&positions, self.binary).context("positions")?.into_iter().map(double).collect();
         let normals: Vec<Vec3> = match primitive.get(&Semantic::Normals) {
-            Some(normals) => read_vectors(&normals, self.binary).context("normals")?.into_iter().map(Vec3::from_array).collect(),
+            Some(normals) => {
+                read_vectors(&normals, self.binary).context("normals")?.into_iter().map(Vec3::from_array).collect()
+            }
             None => Vec::new(),
         };
         ensure!(

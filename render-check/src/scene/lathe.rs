@@ -7,7 +7,7 @@ use shadowfit::glam::{DMat4, DVec2, DVec3, Vec3};
 use super::{MeshBuilder, Part};
 
 /// How many flat sides stand for a turned surface.
-const SIDES: u32 = 48;
+const SIDES: u32 = 72;
 
 /// The cosine of the angle between two stretches of a profile from which on the edge between them looks sharp.
 const SHARP_EDGE_COSINE: f64 = 0.7;
@@ -45,12 +45,17 @@ pub(super) fn add_turned(builder: &mut MeshBuilder, profile: &[DVec2], world_fro
             }
         }
     }
-    builder.add(&Part { positions: &positions, normals: &normals, triangles: &triangles, colour }, world_from_solid);
+    builder
+        .add(&Part { positions: &positions, normals: &normals, triangles: &triangles, colour }, world_from_solid);
 }
 
 /// Adds a box between two corners.
 pub(super) fn add_box(
-    builder: &mut MeshBuilder, min: DVec3, max: DVec3, world_from_solid: DMat4, colour: [f32; 3],
+    builder: &mut MeshBuilder,
+    min: DVec3,
+    max: DVec3,
+    world_from_solid: DMat4,
+    colour: [f32; 3],
 ) {
     let outline = [[min.x, max.x], [min.x, max.x]];
     let rows: Vec<[DVec2; 2]> =
@@ -61,7 +66,10 @@ pub(super) fn add_box(
 /// Adds a shape cut out of a board that lies between two z coordinates. The outline is given as rows from bottom to
 /// top, each with its left and its right end.
 pub(super) fn add_cut_out(
-    builder: &mut MeshBuilder, rows: &[[DVec2; 2]], [back, front]: [f64; 2], world_from_solid: DMat4,
+    builder: &mut MeshBuilder,
+    rows: &[[DVec2; 2]],
+    [back, front]: [f64; 2],
+    world_from_solid: DMat4,
     colour: [f32; 3],
 ) {
     let mut positions: Vec<DVec3> = Vec::new();
@@ -75,12 +83,22 @@ pub(super) fn add_cut_out(
         let [[low_left, low_right], [high_left, high_right]] = [pair[0], pair[1]];
         add_quad([low_left, low_right, high_right, high_left].map(|p| p.extend(front)));
         add_quad([low_right, low_left, high_left, high_right].map(|p| p.extend(back)));
-        add_quad([low_right.extend(front), low_right.extend(back), high_right.extend(back), high_right.extend(front)]);
+        add_quad([
+            low_right.extend(front),
+            low_right.extend(back),
+            high_right.extend(back),
+            high_right.extend(front),
+        ]);
         add_quad([low_left.extend(back), low_left.extend(front), high_left.extend(front), high_left.extend(back)]);
     }
     if let (Some([low_left, low_right]), Some([high_left, high_right])) = (rows.first(), rows.last()) {
         add_quad([low_left.extend(back), low_right.extend(back), low_right.extend(front), low_left.extend(front)]);
-        add_quad([high_left.extend(front), high_right.extend(front), high_right.extend(back), high_left.extend(back)]);
+        add_quad([
+            high_left.extend(front),
+            high_right.extend(front),
+            high_right.extend(back),
+            high_left.extend(back),
+        ]);
     }
     let flat: [Vec3; 0] = [];
     builder.add(&Part { positions: &positions, normals: &flat, triangles: &triangles, colour }, world_from_solid);

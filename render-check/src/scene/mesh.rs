@@ -132,8 +132,7 @@ fn is_flat(a: DVec3, b: DVec3, c: DVec3) -> bool {
 mod tests {
     use super::*;
 
-    const SQUARE: [DVec3; 4] =
-        [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
+    const SQUARE: [DVec3; 4] = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
 
     fn part<'a>(positions: &'a [DVec3], triangles: &'a [[u32; 3]]) -> Part<'a> {
         Part { positions, normals: &[], triangles, colour: [1.0; 3] }

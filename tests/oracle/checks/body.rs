@@ -13,9 +13,7 @@ fn sorted_vertices(planes: &[[f64; 4]]) -> Vec<[f64; 3]> {
 
 /// The corners of the unit cube in lexicographic order.
 fn cube_corners() -> Vec<[f64; 3]> {
-    (0..8)
-        .map(|bits| [bits >> 2 & 1, bits >> 1 & 1, bits & 1].map(f64::from))
-        .collect()
+    (0..8).map(|bits| [bits >> 2 & 1, bits >> 1 & 1, bits & 1].map(f64::from)).collect()
 }
 
 #[test]
@@ -43,27 +41,14 @@ fn redundant_and_duplicate_planes_change_nothing() {
 fn tetrahedron_has_its_corners() {
     assert_eq!(
         sorted_vertices(&tetrahedron()),
-        [
-            [0.0, 0.0, 0.0],
-            [0.0, 0.0, 1.0],
-            [0.0, 1.0, 0.0],
-            [1.0, 0.0, 0.0]
-        ]
+        [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]
     );
 }
 
 #[test]
 fn flat_bodies_keep_their_vertices() {
     let flat = sorted_vertices(&cuboid([0.0, 0.0, 0.5], [1.0, 2.0, 0.5]));
-    assert_eq!(
-        flat,
-        [
-            [0.0, 0.0, 0.5],
-            [0.0, 2.0, 0.5],
-            [1.0, 0.0, 0.5],
-            [1.0, 2.0, 0.5]
-        ]
-    );
+    assert_eq!(flat, [[0.0, 0.0, 0.5], [0.0, 2.0, 0.5], [1.0, 0.0, 0.5], [1.0, 2.0, 0.5]]);
     let segment = sorted_vertices(&cuboid([0.0, 1.0, 0.5], [2.0, 1.0, 0.5]));
     assert_eq!(segment, [[0.0, 1.0, 0.5], [2.0, 1.0, 0.5]]);
     let point = sorted_vertices(&cuboid([0.1, 0.2, 0.3], [0.1, 0.2, 0.3]));
@@ -91,23 +76,12 @@ fn cuts_through_edges_and_corners_are_exact() {
     planes.push([-1.0, -1.0, 0.0, 1.0]);
     assert_eq!(
         sorted_vertices(&planes),
-        [
-            [0.0, 0.0, 0.0],
-            [0.0, 0.0, 1.0],
-            [0.0, 1.0, 0.0],
-            [0.0, 1.0, 1.0],
-            [1.0, 0.0, 0.0],
-            [1.0, 0.0, 1.0]
-        ]
+        [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [0.0, 1.0, 1.0], [1.0, 0.0, 0.0], [1.0, 0.0, 1.0]]
     );
     // And x + y + z <= 1 through three corners, with the cube's far faces left redundant.
     let mut planes = unit_cube();
     planes.push([-1.0, -1.0, -1.0, 1.0]);
-    assert_eq!(
-        sorted_vertices(&planes),
-        sorted_vertices(&tetrahedron()),
-        "the cube's far faces are redundant"
-    );
+    assert_eq!(sorted_vertices(&planes), sorted_vertices(&tetrahedron()), "the cube's far faces are redundant");
 }
 
 #[test]
@@ -161,9 +135,7 @@ fn random_polyhedra_satisfy_eulers_formula() {
         }
         let body = Body::from_planes(&planes);
         let inside = |vertex: [f64; 3]| {
-            planes
-                .iter()
-                .all(|[x, y, z, d]| x * vertex[0] + y * vertex[1] + z * vertex[2] + d >= -1e-12)
+            planes.iter().all(|[x, y, z, d]| x * vertex[0] + y * vertex[1] + z * vertex[2] + d >= -1e-12)
         };
         assert!(body.vertices_f64().into_iter().all(inside));
         // Only a body with an interior has these numbers, and only with each face counted once.

@@ -7,10 +7,7 @@ use crate::body::Body;
 /// Asserts a distance to a relative 1e-14.
 fn assert_distance(planes: &[[f64; 4]], point: [f64; 3], expected: f64) {
     let distance = Body::from_planes(planes).distance(point);
-    assert!(
-        (distance - expected).abs() <= 1e-14 * expected,
-        "{distance:e} is not {expected:e}"
-    );
+    assert!((distance - expected).abs() <= 1e-14 * expected, "{distance:e} is not {expected:e}");
 }
 
 #[test]
@@ -32,22 +29,14 @@ fn faces_edges_and_corners_at_all_sizes() {
     // Beside coordinates of another size only a few ulps are left to be outside by.
     let ulp = f64::EPSILON;
     assert_distance(&unit_cube(), [1.0 + ulp, 0.5, 0.25], ulp);
-    assert_distance(
-        &unit_cube(),
-        [1.0 + 3.0 * ulp, 1.0 + 4.0 * ulp, 0.25],
-        5.0 * ulp,
-    );
+    assert_distance(&unit_cube(), [1.0 + 3.0 * ulp, 1.0 + 4.0 * ulp, 0.25], 5.0 * ulp);
 }
 
 #[test]
 fn oblique_face_at_the_last_bit() {
     let third = 3.0_f64.sqrt();
     assert_distance(&tetrahedron(), [1.0, 1.0, 1.0], 2.0 / third);
-    assert_distance(
-        &tetrahedron(),
-        [0.25, 0.25, 0.5 + f64::EPSILON],
-        f64::EPSILON / third,
-    );
+    assert_distance(&tetrahedron(), [0.25, 0.25, 0.5 + f64::EPSILON], f64::EPSILON / third);
     // Beyond the face's own edge, though only one half-space is violated.
     assert_distance(&tetrahedron(), [0.0, 1.0, 1.0], 0.5_f64.sqrt());
     assert_distance(&tetrahedron(), [0.0, 0.0, 3.0], 2.0);
@@ -87,11 +76,8 @@ fn bounds(points: &[[f64; 3]]) -> (f64, f64) {
     let mut x = points[0];
     let mut lower = 0.0_f64;
     for _ in 0..2000 {
-        let nearest = points
-            .iter()
-            .copied()
-            .min_by(|&a, &b| dot(a, x).total_cmp(&dot(b, x)))
-            .expect("there are points");
+        let nearest =
+            points.iter().copied().min_by(|&a, &b| dot(a, x).total_cmp(&dot(b, x))).expect("there are points");
         lower = lower.max(dot(nearest, x) / dot(x, x).sqrt());
         let step: [f64; 3] = std::array::from_fn(|i| nearest[i] - x[i]);
         let length2 = dot(step, step);
@@ -118,11 +104,8 @@ fn random_distances_lie_within_bounds() {
         if body.is_empty() || body.contains(point) {
             continue;
         }
-        let seen: Vec<[f64; 3]> = body
-            .vertices_f64()
-            .into_iter()
-            .map(|vertex| std::array::from_fn(|i| vertex[i] - point[i]))
-            .collect();
+        let seen: Vec<[f64; 3]> =
+            body.vertices_f64().into_iter().map(|vertex| std::array::from_fn(|i| vertex[i] - point[i])).collect();
         let (lower, upper) = bounds(&seen);
         let distance = body.distance(point);
         assert!(distance >= lower - 1e-14 && distance <= upper + 1e-14);

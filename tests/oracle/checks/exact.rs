@@ -10,8 +10,7 @@ use crate::exact::{integers, leading, ratio, scale, sqrt_ratio};
 fn conversions_round_trip() {
     let mut random = Random::new(1);
     for _ in 0..2000 {
-        let values: [f64; 2] =
-            std::array::from_fn(|_| scale(random.signed(), random.integer(-1080, 1020)));
+        let values: [f64; 2] = std::array::from_fn(|_| scale(random.signed(), random.integer(-1080, 1020)));
         let (whole, exponent) = integers(values);
         for (value, whole) in values.iter().zip(&whole) {
             assert_eq!(ratio(whole, &IBig::ONE, exponent), *value);
@@ -57,11 +56,7 @@ fn roots_of_squares_are_exact() {
         let a = random.integer(1, 1 << 53) as u64;
         let b = random.integer(0, 400) as usize;
         let square = UBig::from(a).sqr();
-        assert_eq!(sqrt_ratio(square.clone() << (2 * b), UBig::ONE), {
-            scale(a as f64, b as i64)
-        });
-        assert_eq!(sqrt_ratio(square, UBig::ONE << (2 * b)), {
-            scale(a as f64, -(b as i64))
-        });
+        assert_eq!(sqrt_ratio(square.clone() << (2 * b), UBig::ONE), { scale(a as f64, b as i64) });
+        assert_eq!(sqrt_ratio(square, UBig::ONE << (2 * b)), { scale(a as f64, -(b as i64)) });
     }
 }

@@ -53,19 +53,10 @@ fn light_inside_leaves_the_view() {
 #[test]
 fn light_at_the_eye_completes_the_pyramid() {
     let pyramid = |far: &[[f64; 4]]| sorted(&[&infinite_frustum(1.0)[..4], far].concat());
-    assert_eq!(
-        sorted_hull(&frustum(1.0, 4.0), [0.0, 0.0, 0.0, 1.0]),
-        pyramid(&[[0.0, 0.0, -1.0, 4.0]])
-    );
-    assert_eq!(
-        sorted_hull(&infinite_frustum(1.0), [0.0, 0.0, 0.0, 1.0]),
-        pyramid(&[])
-    );
+    assert_eq!(sorted_hull(&frustum(1.0, 4.0), [0.0, 0.0, 0.0, 1.0]), pyramid(&[[0.0, 0.0, -1.0, 4.0]]));
+    assert_eq!(sorted_hull(&infinite_frustum(1.0), [0.0, 0.0, 0.0, 1.0]), pyramid(&[]));
     // With no near plane the eye is the view's own vertex.
-    assert_eq!(
-        sorted_hull(&infinite_frustum(1.0)[..4], [0.0, 0.0, 0.0, 1.0]),
-        pyramid(&[])
-    );
+    assert_eq!(sorted_hull(&infinite_frustum(1.0)[..4], [0.0, 0.0, 0.0, 1.0]), pyramid(&[]));
 }
 
 #[test]
@@ -74,12 +65,7 @@ fn point_light_above_a_box() {
     let planes = sorted_hull(&view, [0.0, 0.0, 3.0, 1.0]);
     // Without the top, with four sloping sides through the top's edges and the light.
     let mut expected: Vec<[f64; 4]> = view[..5].to_vec();
-    expected.extend([
-        [2.0, 0.0, -1.0, 3.0],
-        [-2.0, 0.0, -1.0, 3.0],
-        [0.0, 2.0, -1.0, 3.0],
-        [0.0, -2.0, -1.0, 3.0],
-    ]);
+    expected.extend([[2.0, 0.0, -1.0, 3.0], [-2.0, 0.0, -1.0, 3.0], [0.0, 2.0, -1.0, 3.0], [0.0, -2.0, -1.0, 3.0]]);
     assert_eq!(planes, sorted(&expected));
 }
 
@@ -89,11 +75,7 @@ fn light_on_the_plane_of_a_face() {
     let view = cuboid([-1.0; 3], [1.0; 3]);
     let planes = sorted_hull(&view, [1.0, 0.0, 3.0, 1.0]);
     let mut expected: Vec<[f64; 4]> = view[..5].to_vec();
-    expected.extend([
-        [1.0, 0.0, -1.0, 2.0],
-        [0.0, 2.0, -1.0, 3.0],
-        [0.0, -2.0, -1.0, 3.0],
-    ]);
+    expected.extend([[1.0, 0.0, -1.0, 2.0], [0.0, 2.0, -1.0, 3.0], [0.0, -2.0, -1.0, 3.0]]);
     assert_eq!(planes, sorted(&expected));
     // On the line of an edge.
     let planes = sorted_hull(&view, [1.0, 1.0, 3.0, 1.0]);
@@ -109,42 +91,20 @@ fn directional_light_extrudes_the_view() {
     assert_eq!(sorted_hull(&view, [0.0, 0.0, 1.0, 0.0]), sorted(&view[..5]));
     let mut along_face = vec![view[0], view[2], view[3], view[4]];
     along_face.extend([[-1.0, 0.0, 1.0, 2.0], [1.0, 0.0, -1.0, 2.0]]);
-    assert_eq!(
-        sorted_hull(&view, [1.0, 0.0, 1.0, 0.0]),
-        sorted(&along_face)
-    );
+    assert_eq!(sorted_hull(&view, [1.0, 0.0, 1.0, 0.0]), sorted(&along_face));
     let oblique = hull(&view, [1.0, 1.0, 1.0, 0.0]);
     assert_eq!(oblique.len(), 9);
-    assert_eq!(
-        hull(&view, [1.0, 1e-9, 1e-9, 0.0]).len(),
-        9,
-        "nearly along an edge"
-    );
+    assert_eq!(hull(&view, [1.0, 1e-9, 1e-9, 0.0]).len(), 9, "nearly along an edge");
 }
 
 #[test]
 fn infinite_views_keep_their_directions() {
     let view = infinite_frustum(1.0);
-    assert_eq!(
-        homogeneous_vertices(
-            &view
-                .iter()
-                .copied()
-                .map(Homogeneous::from_f64)
-                .collect::<Vec<_>>()
-        )
-        .len(),
-        8
-    );
+    assert_eq!(homogeneous_vertices(&view.iter().copied().map(Homogeneous::from_f64).collect::<Vec<_>>()).len(), 8);
     // From behind, the hull is the light's own pyramid, the view's directions added to it.
     assert_eq!(
         sorted_hull(&view, [0.0, 0.0, -1.0, 1.0]),
-        sorted(&[
-            [1.0, 0.0, 1.0, 1.0],
-            [-1.0, 0.0, 1.0, 1.0],
-            [0.0, 1.0, 1.0, 1.0],
-            [0.0, -1.0, 1.0, 1.0],
-        ])
+        sorted(&[[1.0, 0.0, 1.0, 1.0], [-1.0, 0.0, 1.0, 1.0], [0.0, 1.0, 1.0, 1.0], [0.0, -1.0, 1.0, 1.0],])
     );
     // A light in a direction of the view adds nothing.
     assert_eq!(sorted_hull(&view, [0.0, 0.0, 1.0, 0.0]), sorted(&view));
@@ -152,10 +112,7 @@ fn infinite_views_keep_their_directions() {
     // One straight behind makes the hull all of space.
     assert!(hull(&view, [0.0, 0.0, -1.0, 0.0]).is_empty());
     // One opposite to a direction on a face leaves that face's half-space.
-    assert_eq!(
-        sorted_hull(&view, [-1.0, 0.0, -1.0, 0.0]),
-        sorted(&[[-1.0, 0.0, 1.0, 0.0]])
-    );
+    assert_eq!(sorted_hull(&view, [-1.0, 0.0, -1.0, 0.0]), sorted(&[[-1.0, 0.0, 1.0, 0.0]]));
 }
 
 #[test]
@@ -213,24 +170,14 @@ fn membership_agrees_with_the_definition() {
     for case in 0..600 {
         let mut view: Vec<[i64; 4]> = Vec::new();
         if case % 2 == 0 {
-            view.extend(
-                cuboid([-2.0; 3], [2.0; 3])
-                    .iter()
-                    .map(|plane| plane.map(|x| x as i64)),
-            );
+            view.extend(cuboid([-2.0; 3], [2.0; 3]).iter().map(|plane| plane.map(|x| x as i64)));
         }
         for _ in 0..random.integer(1, 6) {
             view.push(random.small_plane());
         }
         let view_f64: Vec<[f64; 4]> = view.iter().map(|plane| plane.map(|x| x as f64)).collect();
-        let exact: Vec<ExactPlane> = view_f64
-            .iter()
-            .copied()
-            .map(Homogeneous::from_f64)
-            .collect();
-        let empty = homogeneous_vertices(&exact)
-            .iter()
-            .all(|vertex| vertex.vector.w().is_zero());
+        let exact: Vec<ExactPlane> = view_f64.iter().copied().map(Homogeneous::from_f64).collect();
+        let empty = homogeneous_vertices(&exact).iter().all(|vertex| vertex.vector.w().is_zero());
         let [x, y, z] = std::array::from_fn(|_| random.integer(-4, 4));
         let light = [x, y, z, random.integer(0, 1)];
         let planes = hull(&view_f64, light.map(|x| x as f64));
@@ -239,9 +186,7 @@ fn membership_agrees_with_the_definition() {
             let [x, y, z] = std::array::from_fn(|_| random.integer(-10, 10));
             let point = [x, y, z, 2];
             let exact = Homogeneous::from_f64(point.map(|x| x as f64));
-            let computed = planes
-                .iter()
-                .all(|plane| plane.side(&exact) != Ordering::Less);
+            let computed = planes.iter().all(|plane| plane.side(&exact) != Ordering::Less);
             let member = !empty && in_hull(&view, light, point);
             assert_eq!(computed, member, "{view:?} {light:?} {point:?}");
             members += usize::from(member);

@@ -30,11 +30,6 @@ impl Random {
 
     /// A half-space with small integer components, as numbers and as integers.
     pub(crate) fn small_plane(&mut self) -> [i64; 4] {
-        [
-            self.integer(-3, 3),
-            self.integer(-3, 3),
-            self.integer(-3, 3),
-            self.integer(-2, 6),
-        ]
+        [self.integer(-3, 3), self.integer(-3, 3), self.integer(-3, 3), self.integer(-2, 6)]
     }
 }

@@ -15,9 +15,7 @@ fn filter_is_never_wrong() {
     let mut spoke = [0, 0];
     let cases = 5000;
     for case in 0..cases {
-        let mut vector = || -> [f64; 4] {
-            std::array::from_fn(|_| scale(random.signed(), -random.integer(0, 30)))
-        };
+        let mut vector = || -> [f64; 4] { std::array::from_fn(|_| scale(random.signed(), -random.integer(0, 30))) };
         let [a, b, c, generic] = std::array::from_fn(|_| vector());
         let nearly: [f64; 4] = std::array::from_fn(|i| 0.7 * a[i] - 1.3 * b[i] + 0.1 * c[i]);
         for (kind, d) in [generic, nearly].into_iter().enumerate() {
@@ -31,10 +29,7 @@ fn filter_is_never_wrong() {
         }
     }
     assert!(spoke[0] > cases * 9 / 10, "generic signs are certain");
-    assert!(
-        spoke[1] < cases / 2,
-        "nearly dependent vectors try the bound"
-    );
+    assert!(spoke[1] < cases / 2, "nearly dependent vectors try the bound");
 }
 
 /// Where components differ too much in size the filter is off, and the exact sign still right.

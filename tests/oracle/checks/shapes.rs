@@ -20,12 +20,7 @@ pub(crate) fn unit_cube() -> Vec<[f64; 4]> {
 
 /// The tetrahedron below x + y + z = 1 in the positive octant.
 pub(crate) fn tetrahedron() -> Vec<[f64; 4]> {
-    vec![
-        [1.0, 0.0, 0.0, 0.0],
-        [0.0, 1.0, 0.0, 0.0],
-        [0.0, 0.0, 1.0, 0.0],
-        [-1.0, -1.0, -1.0, 1.0],
-    ]
+    vec![[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [-1.0, -1.0, -1.0, 1.0]]
 }
 
 /// The infinite square pyramid |x|, |y| ≤ z, its eye at the origin, from the distance `near` on.

@@ -1,0 +1,103 @@
+//! Time: `cargo bench --bench fit`. Read ratios within one run, not times across runs: machines are noisy.
+
+mod cases;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use shadowfit::glam::DVec3;
+use shadowfit::{Focus, Form, InputError, Light, Outcome, Scene, Settings, classify, fit};
+use std::hint::black_box;
+
+/// Each step on its own, and the whole fit.
+fn steps(criterion: &mut Criterion) -> Result<(), InputError> {
+    let (view, scene) = (cases::view()?, cases::scene()?);
+    for (name, light) in cases::lights()? {
+        let mut group = criterion.benchmark_group(name);
+        let focus = || Focus::new(black_box(&view), black_box(&light), &scene);
+        group.bench_function("class", |b| b.iter(|| classify(black_box(&view), black_box(&light))));
+        group.bench_function("R", |b| b.iter(|| focus().visible()));
+        group.bench_function("H as the paper has it", |b| b.iter(|| focus().body(Form::Paper)));
+        group.bench_function("H tight", |b| b.iter(|| focus().body(Form::Tight)));
+        for (map, settings) in cases::settings() {
+            group.bench_function(format!("fit, {map}"), |b| {
+                b.iter(|| fit(black_box(&view), black_box(&light), &scene, &settings));
+            });
+        }
+        let whole = focus();
+        if let Outcome::Map(map) = whole.fit(&Settings::default()) {
+            group.bench_function("report", |b| b.iter(|| map.report(black_box(&whole))));
+        }
+        group.finish();
+    }
+    if let Some(corners) = view.corners() {
+        criterion.bench_function("directional/fit, naive", |b| {
+            b.iter(|| cases::naive_fit(black_box(&corners), black_box(DVec3::new(0.3, 1.0, 0.4).normalize())));
+        });
+    }
+    Ok(())
+}
+
+/// Casters against H, and H from lists of casters and receivers.
+fn culling(criterion: &mut Criterion) -> Result<(), InputError> {
+    let (view, scene) = (cases::view()?, cases::scene()?);
+    let sun = Light::directional((0.3, 1.0, 0.4))?;
+    let body = Focus::new(&view, &sun, &scene).body(Form::Tight);
+    let (culler, boxes) = (body.culler(), cases::boxes(10_000));
+    let mut meets = vec![false; boxes.len()];
+    let mut group = criterion.benchmark_group("10,000 boxes");
+    group.throughput(Throughput::Bytes(size_of_val(boxes.as_slice()) as u64));
+    group.bench_function("in bulk", |b| b.iter(|| culler.boxes(black_box(&boxes), &mut meets)));
+    group.bench_function("one by one", |b| {
+        b.iter(|| boxes.iter().filter(|one| body.meets_box(one.min, one.max)).count());
+    });
+    group.bench_function("copied, for comparison", |b| b.iter(|| black_box(&boxes).to_vec()));
+    group.bench_function("as casters and receivers of a fit", |b| {
+        b.iter(|| Scene::new(&boxes, &boxes).map(|scene| fit(&view, &sun, &scene, &Settings::default())));
+    });
+    group.finish();
+    Ok(())
+}
+
+/// How cost grows with lights and with planes of S.
+fn growth(criterion: &mut Criterion) -> Result<(), InputError> {
+    let (view, scene) = (cases::view()?, cases::scene()?);
+    let mut group = criterion.benchmark_group("lights");
+    group.sample_size(10);
+    for count in [1, 10, 100, 1_000, 10_000, 100_000] {
+        let lights = (0..count)
+            .map(|index| {
+                let turn = f64::from(index);
+                let position = (150.0 * turn.cos(), 10.0 + 8.0 * (0.37 * turn).sin(), 150.0 * turn.sin());
+                Light::point(position, 0.1, 15.0)
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        group.throughput(Throughput::Elements(u64::from(count as u32)));
+        group.bench_function(BenchmarkId::from_parameter(count), |b| {
+            b.iter(|| {
+                let maps = lights.iter().filter(|light| fit(&view, light, &scene, &Settings::default()).map().is_some());
+                maps.count()
+            });
+        });
+    }
+    group.finish();
+
+    let sun = Light::directional((0.3, 1.0, 0.4))?;
+    let mut group = criterion.benchmark_group("planes of S");
+    for cuts in [0, 2, 4, 8, 12] {
+        let body = cases::cut_scene(cuts)?;
+        group.bench_function(BenchmarkId::from_parameter(6 + cuts), |b| {
+            b.iter(|| fit(black_box(&view), &sun, &Scene::from_convex(&body), &Settings::default()));
+        });
+    }
+    group.finish();
+    Ok(())
+}
+
+fn all(criterion: &mut Criterion) {
+    let results = [steps(criterion), culling(criterion), growth(criterion)];
+    if let Some(error) = results.into_iter().find_map(Result::err) {
+        panic!("a case of the benchmark is no valid input: {error}");
+    }
+}
+
+criterion_group!(benches, all);
+criterion_main!(benches);

@@ -1,0 +1,140 @@
+//! The program as its users meet it: what it prints, what it leaves behind, and what it says when it cannot.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn run(arguments: &[&str], directory: &Path) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_render-check"));
+    command.args(arguments).current_dir(directory).output().expect("the program starts")
+}
+
+/// Pictures as small as they may be: these tests are about everything but what they show.
+const SMALL: [&str; 6] = ["--width", "32", "--height", "20", "--size", "16"];
+
+fn run_small(arguments: &[&str], directory: &Path) -> Output {
+    run(&[arguments, &SMALL[..]].concat(), directory)
+}
+
+fn complaint(output: &Output) -> String {
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(!output.status.success(), "it should fail: {message}");
+    assert!(!message.contains("panicked"), "{message}");
+    message
+}
+
+/// Runs a command that cannot work; checks that it says so in one line, and returns the line.
+fn one_line_complaint(arguments: &[&str], directory: &Path) -> String {
+    let message = complaint(&run_small(arguments, directory));
+    assert!(message.starts_with("error: ") && message.trim_end().lines().count() == 1, "{message}");
+    message
+}
+
+fn temporary() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a temporary directory")
+}
+
+/// The header and an empty description.
+fn glb(json: &str) -> Vec<u8> {
+    let mut json = json.as_bytes().to_vec();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let words = [2, 20 + json.len() as u32, json.len() as u32].map(u32::to_le_bytes);
+    [b"glTF", words.as_flattened(), b"JSON", &json].concat()
+}
+
+#[test]
+fn without_arguments_it_shows_a_chess_board_under_three_lights() {
+    let directory = temporary();
+    let output = run_small(&[], directory.path());
+    let printed = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    for expected in ["chess-board", "sun:", "point:", "spot:", "infinity plane", "PSM", "aliasing", "µs"] {
+        assert!(printed.contains(expected), "no '{expected}' in\n{printed}");
+    }
+    for light in ["1-sun", "2-point", "3-spot"] {
+        for picture in ["camera", "light", "maps"] {
+            let path = directory.path().join(format!("out/chess-board/{light}-{picture}.png"));
+            let bytes = fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+            assert!(bytes.starts_with(b"\x89PNG"), "{}", path.display());
+        }
+    }
+}
+
+#[test]
+fn lights_and_directory_are_taken_from_the_command_line() {
+    let directory = temporary();
+    let output = run_small(&["--light", "sun:0,1,0", "--out", "here/and there"], directory.path());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut names: Vec<_> = fs::read_dir(directory.path().join("here/and there"))
+        .expect("the directory was made")
+        .map(|entry| entry.expect("readable").file_name().into_string().expect("plain names"))
+        .collect();
+    names.sort();
+    assert_eq!(names, ["1-sun-camera.png", "1-sun-light.png", "1-sun-maps.png"]);
+}
+
+#[test]
+fn a_lamp_among_what_it_lights_is_told_which_maps_serve() {
+    let directory = temporary();
+    let output = run_small(&["--light", "point:0,0.8,-8"], directory.path());
+    let printed = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(printed.contains("light 1: no map") && printed.contains("paraboloid"), "{printed}");
+    assert!(directory.path().join("out/chess-board/1-point-camera.png").exists());
+    assert!(!directory.path().join("out/chess-board/1-point-maps.png").exists());
+}
+
+#[test]
+fn an_endless_far_plane_is_fine() {
+    let directory = temporary();
+    let output = run_small(&["--far", "inf", "--light", "sun:0,1,0.2"], directory.path());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn files_that_cannot_be_used_are_named_with_the_reason() {
+    let directory = temporary();
+    let write = |name: &str, bytes: &[u8]| fs::write(directory.path().join(name), bytes).expect("written");
+    assert!(one_line_complaint(&["missing.glb"], directory.path()).contains("'missing.glb'"));
+
+    write("text.glb", b"this is not a scene");
+    assert!(one_line_complaint(&["text.glb"], directory.path()).contains("export it as .glb"));
+
+    let whole = glb(r#"{"asset": {"version": "2.0"}}"#);
+    write("cut.glb", &whole[..whole.len() - 8]);
+    assert!(one_line_complaint(&["cut.glb"], directory.path()).contains("fetch or export it again"));
+
+    write("broken.glb", &glb("{]"));
+    assert!(one_line_complaint(&["broken.glb"], directory.path()).contains("description is broken"));
+
+    write("empty.glb", &whole);
+    assert!(one_line_complaint(&["empty.glb"], directory.path()).contains("'empty' has no triangles"));
+}
+
+#[test]
+fn cameras_that_see_nothing_are_told_where_to_look() {
+    let directory = temporary();
+    let away = one_line_complaint(&["--eye", "0,2,3", "--target", "0,2,9"], directory.path());
+    assert!(away.contains("nothing is in view") && away.contains("--target"), "{away}");
+    let nowhere = one_line_complaint(&["--eye", "0,2,3", "--target", "0,2,3"], directory.path());
+    assert!(nowhere.contains("--eye"), "{nowhere}");
+    let backwards = one_line_complaint(&["--near", "9", "--far", "5"], directory.path());
+    assert!(backwards.contains("camera cannot be used"), "{backwards}");
+}
+
+#[test]
+fn a_directory_that_cannot_be_made_is_named() {
+    let directory = temporary();
+    fs::write(directory.path().join("file"), b"in the way").expect("written");
+    let message = one_line_complaint(&["--out", "file/pictures"], directory.path());
+    assert!(message.contains("'file/pictures'") && message.contains("--out"), "{message}");
+}
+
+#[test]
+fn a_wrong_light_is_shown_the_right_spelling() {
+    let directory = temporary();
+    let message = complaint(&run(&["--light", "spot:1,2,3"], directory.path()));
+    assert!(message.contains("--light") && message.contains("spot:X,Y,Z/TX,TY,TZ/DEGREES"), "{message}");
+    let message = complaint(&run(&["--light", "point:1,2,3/0.0001"], directory.path()));
+    assert!(message.contains("point:1,2,3/0.0001"), "{message}");
+}

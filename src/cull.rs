@@ -1,0 +1,145 @@
+//! Which casters to draw: boxes and spheres against a focus body.
+
+use crate::convex::{Body, Plane};
+use crate::focus::farthest_corner;
+use crate::scene::Aabb;
+use glam::{DVec3, Vec3, Vec4};
+
+impl Body {
+    /// Whether a box may meet the body.
+    ///
+    /// Never false for a box that does; sometimes true for one that does not, near an edge of the body. A box turned
+    /// inside out meets nothing.
+    #[must_use]
+    pub fn meets_box(&self, min: impl Into<DVec3>, max: impl Into<DVec3>) -> bool {
+        let Some((low, high)) = self.bounds() else { return false };
+        // What matters of the box lies in the body's own; the planes are loose enough for corners of that.
+        let (min, max) = (min.into().max(low), max.into().min(high));
+        min.cmple(max).all() && self.planes().all(|plane| plane.at(farthest_corner(min, max, plane.normal)) >= 0.0)
+    }
+
+    /// Whether a ball may meet the body.
+    ///
+    /// Never false for a ball that does; sometimes true for one that does not, near an edge of the body. A negative
+    /// radius meets nothing.
+    #[must_use]
+    pub fn meets_sphere(&self, centre: impl Into<DVec3>, radius: f64) -> bool {
+        let centre = centre.into();
+        let slack = 8.0 * f64::EPSILON * (centre.abs().element_sum() + radius);
+        let inside = |plane: Plane| plane.normalized().at(centre) + radius + slack >= 0.0;
+        !self.is_empty() && radius >= 0.0 && self.planes().all(inside)
+    }
+
+    /// The body made ready for testing many boxes or spheres.
+    #[must_use]
+    pub fn culler(&self) -> Culler {
+        let mut culler = Culler { planes: [CullPlane::default(); Culler::MAX_PLANES], len: 0, min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+        let Some((low, high)) = self.bounds() else { return culler };
+        (culler.min, culler.max) = (low.as_vec3().map(f32::next_down), high.as_vec3().map(f32::next_up));
+        let extent = culler.min.abs().max(culler.max.abs()).as_dvec3();
+        for plane in self.planes() {
+            if let Some(slot) = culler.planes.get_mut(culler.len) {
+                *slot = CullPlane::new(&plane.normalized(), extent);
+                culler.len += 1;
+            }
+        }
+        culler
+    }
+}
+
+/// A body made ready for testing many boxes or spheres in f32, several at a time.
+///
+/// As [`Body::meets_box`] and [`Body::meets_sphere`], it errs on the side of drawing.
+#[derive(Clone, Debug)]
+pub struct Culler {
+    planes: [CullPlane; Self::MAX_PLANES],
+    len: usize,
+    /// A little more than the body's own bounds.
+    min: Vec3,
+    max: Vec3,
+}
+
+/// A plane in f32, moved outwards by the rounding of its evaluation inside the body's bounds.
+#[derive(Clone, Copy, Debug, Default)]
+struct CullPlane {
+    normal: [f32; 3],
+    offset: f32,
+    /// Which corner of a box is the farthest along the normal: for each axis, 0 for its least coordinate, 1 for its
+    /// largest.
+    farthest: [usize; 3],
+}
+
+impl CullPlane {
+    fn new(plane: &Plane, extent: DVec3) -> Self {
+        // Seven roundings, of the normal, of its products and of their sums, each at most 2⁻²⁴ of the terms.
+        const UNITS: f64 = 8.0 / 16_777_216.0;
+        let magnitude = plane.normal.abs().dot(extent) + plane.offset.abs();
+        let normal = plane.normal.to_array();
+        Self {
+            normal: normal.map(|entry| entry as f32),
+            offset: (plane.offset + UNITS * magnitude) as f32,
+            farthest: normal.map(|entry| usize::from(entry >= 0.0)),
+        }
+    }
+}
+
+/// How many are tested at a time.
+const LANES: usize = 8;
+
+impl Culler {
+    const MAX_PLANES: usize = 64;
+
+    /// Sets `meets[i]` to whether box i may meet the body, for as many as both slices have.
+    pub fn boxes(&self, boxes: &[Aabb], meets: &mut [bool]) {
+        for (boxes, meets) in boxes.chunks(LANES).zip(meets.chunks_mut(LANES)) {
+            // By axis, by end (least, largest), by lane: what of each box lies in the body's bounds.
+            let mut corners = [[[0.0_f32; LANES]; 2]; 3];
+            let mut least = [f32::NEG_INFINITY; LANES];
+            for (lane, one) in boxes.iter().enumerate() {
+                let (low, high) = (one.min.max(self.min), one.max.min(self.max));
+                for axis in 0..3 {
+                    corners[axis][0][lane] = low[axis];
+                    corners[axis][1][lane] = high[axis];
+                }
+                least[lane] = if low.cmple(high).all() { 0.0 } else { -1.0 };
+            }
+            for plane in &self.planes[..self.len] {
+                let [x, y, z] = [0, 1, 2].map(|axis| &corners[axis][plane.farthest[axis] & 1]);
+                let [nx, ny, nz] = plane.normal;
+                for lane in 0..LANES {
+                    let value = nx * x[lane] + ny * y[lane] + nz * z[lane] + plane.offset;
+                    least[lane] = if value < least[lane] { value } else { least[lane] };
+                }
+            }
+            for (meets, least) in meets.iter_mut().zip(least) {
+                *meets = least >= 0.0;
+            }
+        }
+    }
+
+    /// Sets `meets[i]` to whether the ball with centre (x, y, z) and radius w of element i may meet the body, for as
+    /// many as both slices have.
+    pub fn spheres(&self, spheres: &[Vec4], meets: &mut [bool]) {
+        const UNITS: f32 = 8.0 / 16_777_216.0;
+        for (spheres, meets) in spheres.chunks(LANES).zip(meets.chunks_mut(LANES)) {
+            let [mut x, mut y, mut z, mut reach] = [[0.0_f32; LANES]; 4];
+            let mut least = [f32::NEG_INFINITY; LANES];
+            for (lane, ball) in spheres.iter().enumerate() {
+                [x[lane], y[lane], z[lane]] = ball.truncate().to_array();
+                // The planes allow for rounding inside the body's bounds, and a centre may be anywhere.
+                reach[lane] = ball.w + UNITS * (ball.truncate().abs().element_sum() + ball.w);
+                least[lane] = if ball.w >= 0.0 && self.len > 0 { 0.0 } else { -1.0 };
+            }
+            for plane in &self.planes[..self.len] {
+                let [nx, ny, nz] = plane.normal;
+                for lane in 0..LANES {
+                    let value = nx * x[lane] + ny * y[lane] + nz * z[lane] + plane.offset + reach[lane];
+                    least[lane] = if value < least[lane] { value } else { least[lane] };
+                }
+            }
+            for (meets, least) in meets.iter_mut().zip(least) {
+                *meets = least >= 0.0;
+            }
+        }
+    }
+}

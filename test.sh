@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Everything that must hold: formatting, lints, docs, and the tests under every feature set and both ends of glam's range.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+step() {
+    printf '\n== %s\n' "$*"
+}
+
+step formatting
+cargo fmt --all --check
+
+step lints
+cargo clippy --workspace --all-targets --all-features -- -D warnings
+
+step documentation
+RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --all-features
+
+step 'tests, all features'
+cargo test --workspace --all-features
+
+# The heavy comparisons ran above and do not depend on features; here the other tests show that each set is whole.
+for features in '' std,parry3d std,mint std,serde libm; do
+    step "tests, features: ${features:-std}"
+    if [ -z "$features" ]; then
+        cargo test --package shadowfit
+    else
+        cargo test --package shadowfit --no-default-features --features "$features"
+    fi
+done
+
+step 'tests, the lower end of the glam range'
+# In a copy, so that the lock file here stays as it is.
+copy=target/lower-glam
+mkdir -p "$copy"
+tar --create --exclude=./target --exclude=./.git --exclude=./out . | tar --extract --directory "$copy"
+(
+    cd "$copy"
+    lowest=0.33.12
+    for version in $(cargo metadata --format-version 1 | grep --only-matching '"[^"]*#glam@0\.34[^"]*"' | tr -d '"' | sed 's/.*#//' | sort --unique); do
+        cargo update --package "$version" --precise "$lowest"
+    done
+    cargo tree --package shadowfit --depth 1 --prefix none | grep --quiet "^glam v$lowest"
+    CARGO_TARGET_DIR=target cargo test --package shadowfit --all-features
+)
