@@ -73,7 +73,8 @@ fn growth(criterion: &mut Criterion) -> Result<(), InputError> {
         group.throughput(Throughput::Elements(u64::from(count as u32)));
         group.bench_function(BenchmarkId::from_parameter(count), |b| {
             b.iter(|| {
-                let maps = lights.iter().filter(|light| fit(&view, light, &scene, &Settings::default()).map().is_some());
+                let maps =
+                    lights.iter().filter(|light| fit(&view, light, &scene, &Settings::default()).map().is_some());
                 maps.count()
             });
         });

@@ -33,7 +33,12 @@ impl Body {
     /// The body made ready for testing many boxes or spheres.
     #[must_use]
     pub fn culler(&self) -> Culler {
-        let mut culler = Culler { planes: [CullPlane::default(); Culler::MAX_PLANES], len: 0, min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+        let mut culler = Culler {
+            planes: [CullPlane::default(); Culler::MAX_PLANES],
+            len: 0,
+            min: Vec3::INFINITY,
+            max: Vec3::NEG_INFINITY,
+        };
         let Some((low, high)) = self.bounds() else { return culler };
         (culler.min, culler.max) = (low.as_vec3().map(f32::next_down), high.as_vec3().map(f32::next_up));
         let extent = culler.min.abs().max(culler.max.abs()).as_dvec3();

@@ -62,7 +62,9 @@ impl fmt::Display for Problem {
             Self::AngleOutOfRange => "is outside the open range of its angle",
             Self::OutOfOrder => "has its minimum above its maximum",
             Self::NotRigid => "is more than rotation, reflection, uniform scale and translation",
-            Self::NotAProjection => "is no perspective or orthographic projection with its near plane facing the eye",
+            Self::NotAProjection => {
+                "is no perspective or orthographic projection with its near plane facing the eye"
+            }
             Self::Empty => "is empty",
             Self::TooMany => "holds too many elements",
         })
@@ -116,10 +118,13 @@ pub(crate) mod check {
         if value == f64::INFINITY { Ok(value) } else { distance(field, value) }
     }
 
-    /// A direction, made unit length whatever its length was.
+    /// A direction, made unit length whatever its length was; one that is unit length stays as it is to the last bit.
     pub(crate) fn direction(field: &'static str, value: DVec3) -> Result<DVec3, InputError> {
         if !value.is_finite() {
             return fail(field, Problem::NotFinite);
+        }
+        if (value.length_squared() - 1.0).abs() <= 4.0 * f64::EPSILON {
+            return Ok(value);
         }
         // Scaled by a power of two first, so that neither tiny nor huge directions under- or overflow when squared.
         let largest = value.abs().max_element();

@@ -22,6 +22,7 @@ const LEAST_PART: f64 = 1.0 / 1_073_741_824.0;
 
 /// What comes of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "a box would need a heap")]
 pub enum Outcome {
     /// One map, and its matrix.
     Map(Map),
@@ -170,7 +171,7 @@ fn fit_visible(
     // The window: what R covers. Nothing else in hull(R, l) can widen it.
     let (mut x, mut y, mut depth) = (Interval::EMPTY, Interval::EMPTY, Interval::EMPTY);
     let (mut c, mut ratio, mut seen) = (Interval::EMPTY, Interval::EMPTY, 0.0);
-    let mut rounding = Rounding::new(&map, origin);
+    let mut rounding = Rounding::new(&map, &rays, origin);
     for point in visible.positions() {
         let values = map.at(point);
         let one = values / values.w;
@@ -183,7 +184,7 @@ fn fit_visible(
         // Points nearer to the light than its near distance need not be right.
         if w >= rays.least_w {
             seen = most(seen, view.half_height(view.depth(point)) / values.w);
-            rounding.include(point, values.w);
+            rounding.include_visible(point, values.w);
         }
     }
     let window = Rectangle::over(&x, &y);
@@ -198,18 +199,21 @@ fn fit_visible(
     // No point that a directional light reaches has less than the least c.
     let planes = if rays.local { &planes[..] } else { &planes[..4] };
     clip_all(casting, planes, VIEW_IDS, extent, |_, _| ());
+    let last = depth.max;
     depth.min = f64::INFINITY;
     for point in casting.positions() {
         let values = map.at(point);
         // But for rounding c would never be less.
         let c = most(values.w, 0.5 * least_c);
         depth.min = least(depth.min, values.z / c);
-        rounding.include(point, c);
+        rounding.include_casting(point, c);
     }
-    // Without any casters the least depth is infinite.
-    if depth.min > depth.max {
+    // Casters beyond all that is visible shadow none of it. Without any casters the least depth is infinite, and those
+    // of a flat scene are as deep as what is visible, but for rounding.
+    if depth.min > last + rounding.of_depth(last) {
         return Outcome::Empty(Empty::NothingCasts);
     }
+    depth.min = least(depth.min, last);
 
     let smallest = LEAST_PART * seen;
     let half = rounding.padded_window(&window, settings.inner(), settings.map_size(), smallest);

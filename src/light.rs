@@ -17,8 +17,16 @@ pub struct Light {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 enum Kind {
-    Directional { direction_to_light: DVec3 },
-    Local { position: DVec3, near: f64, #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))] range: f64, shape: Shape },
+    Directional {
+        direction_to_light: DVec3,
+    },
+    Local {
+        position: DVec3,
+        near: f64,
+        #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
+        range: f64,
+        shape: Shape,
+    },
 }
 
 /// How a light at a position spreads.
@@ -27,8 +35,13 @@ enum Kind {
 enum Shape {
     Point,
     /// `half_angle` in radians.
-    Spot { axis: DVec3, half_angle: f64 },
-    Hemisphere { axis: DVec3 },
+    Spot {
+        axis: DVec3,
+        half_angle: f64,
+    },
+    Hemisphere {
+        axis: DVec3,
+    },
 }
 
 impl Light {
@@ -158,7 +171,8 @@ impl Light {
                 }
             }
             Shape::Spot { axis, half_angle } => {
-                let (sin_cos, (u, v)) = (DVec2::from_angle(half_angle), crate::frame::across(axis, DVec3::NEG_Z, DVec3::Y));
+                let (sin_cos, (u, v)) =
+                    (DVec2::from_angle(half_angle), crate::frame::across(axis, DVec3::NEG_Z, DVec3::Y));
                 for side in [u, -u, v, -v] {
                     planes.push(Plane::through(axis * sin_cos.y - side * sin_cos.x, position));
                 }
@@ -223,8 +237,16 @@ mod stored {
 
     #[derive(serde::Deserialize)]
     enum Kind {
-        Directional { direction_to_light: DVec3 },
-        Local { position: DVec3, near: f64, #[serde(with = "crate::infinity")] range: f64, shape: Shape },
+        Directional {
+            direction_to_light: DVec3,
+        },
+        Local {
+            position: DVec3,
+            near: f64,
+            #[serde(with = "crate::infinity")]
+            range: f64,
+            shape: Shape,
+        },
     }
 
     impl TryFrom<Light> for super::Light {

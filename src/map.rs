@@ -8,7 +8,7 @@ use crate::light::Light;
 use crate::perspective::{LightClass, VirtualCamera, classify};
 use crate::quality::{DepthFormat, Footprint, depth_resolution, footprint};
 use crate::rays::Rays;
-use crate::settings::{Origin, Settings};
+use crate::settings::{Origin, Settings, Warp};
 use crate::view::View;
 use glam::{DMat4, DVec3, Mat4};
 
@@ -19,7 +19,8 @@ use glam::{DMat4, DVec3, Mat4};
 /// With R what is visible and lit, H the tight focus body, and points at least the light's near distance from it:
 ///
 /// - every point of R and of H, taken through the f32 matrix in f32, lies inside the clip volume, and R keeps the border
-///   of the settings from its sides;
+///   of the settings from its sides; but a caster so near to a light at a position that f32 cannot tell where it stands
+///   to within a thousandth of the window may be off by its rounding;
 /// - points on a ray from the light share their (x, y), and depth grows away from the light: the test is 'less', or
 ///   'greater' for a reversed clip space, whatever the class of the light;
 /// - w > 0, so that no caster wraps around, wherever it is, also behind the eye.
@@ -69,7 +70,8 @@ pub struct DepthSpan {
     /// Distance of the near plane along the map's axis in world units, from the light, or from the eye when the light
     /// is infinitely far away.
     pub near: f64,
-    /// Distance of the far plane, likewise.
+    /// Distance of the far plane, likewise; infinite where padding has moved it beyond every point.
+    #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
     pub far: f64,
 }
 
@@ -77,7 +79,11 @@ impl DepthSpan {
     /// From depths of the homography, whose depth 0 is at distance `zero` along the axis.
     pub(crate) fn new(rays: &Rays, zero: f64, depth: &Interval) -> Self {
         // On the ray in the middle c is w: z = along − zero for a directional light, 1 − zero/along for any other.
-        let along = |z: f64| if rays.local { zero / (1.0 - z) } else { zero + z };
+        let along = |z: f64| match rays.local {
+            true if z < 1.0 => zero / (1.0 - z),
+            true => f64::INFINITY,
+            false => zero + z,
+        };
         Self { near: along(depth.min), far: along(depth.max) }
     }
 }
@@ -181,8 +187,8 @@ impl Map {
         self.warp_ratio
     }
 
-    /// The part of w, on the ray in the middle, that is the uniform map's: 0 for the paper's warp as it is, up to 1 for
-    /// no warp at all.
+    /// The part of w, on the ray in the middle, that is the uniform map's: 0 for the paper's warp as it is, 1 for no warp
+    /// at all, and more where the paper's w is negative on that ray.
     #[must_use]
     pub const fn weakening(&self) -> f64 {
         self.weakening
@@ -192,12 +198,15 @@ impl Map {
     #[must_use]
     pub fn report(&self, focus: &Focus<'_>) -> Report {
         let visible = focus.visible();
-        let over = |value: &dyn Fn(DVec3) -> f64| visible.vertices().iter().map(|&point| value(point)).fold(0.0, f64::max);
+        let over =
+            |value: &dyn Fn(DVec3) -> f64| visible.vertices().iter().map(|&point| value(point)).fold(0.0, f64::max);
         let resolution = |format| over(&|point| self.depth_resolution(point, format));
         Report {
             class: classify(&self.view, &self.light),
             body: focus.body(Form::Tight),
             camera: self.camera,
+            warp: self.settings.warp(),
+            weakening: self.weakening,
             warp_ratio: self.warp_ratio,
             window: self.window,
             depth: self.depth,
@@ -225,6 +234,10 @@ pub struct Report {
     pub body: Body,
     /// The camera whose perspective warps the map, with its back-shift.
     pub camera: VirtualCamera,
+    /// The warp that was asked for.
+    pub warp: Warp,
+    /// How much of it is left out, see [`Map::weakening`].
+    pub weakening: f64,
     /// How strong the warp is, see [`Map::warp_ratio`].
     pub warp_ratio: f64,
     /// What x and y cover.
@@ -239,14 +252,18 @@ pub struct Report {
     pub depth_resolution: DepthResolution,
 }
 
-/// What each depth format resolves, in world units along a ray from the light.
+/// What each depth format resolves, in world units along a ray from the light; infinite where something visible lies
+/// outside of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DepthResolution {
     /// 16-bit unsigned normalised.
+    #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
     pub unorm16: f64,
     /// 24-bit unsigned normalised.
+    #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
     pub unorm24: f64,
     /// 32-bit float.
+    #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
     pub float32: f64,
 }

@@ -53,7 +53,7 @@ impl ConvexScene {
         for point in points {
             check::point(FIELD, point.as_dvec3())?;
         }
-        let all = points.iter().map(Vec3::as_dvec3);
+        let all = points.iter().map(|point| point.as_dvec3());
         let theirs: Vec<Vector> = points.iter().copied().map(to_parry).collect();
         match ConvexPolyhedron::from_convex_hull(&theirs) {
             Some(hull) => {

@@ -69,6 +69,7 @@ pub struct LightClass {
     pub sine_to_camera_plane: f64,
     /// Distance from the eye to the light in units of the near distance; infinite for a directional light and for an
     /// orthographic view, which has no eye.
+    #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
     pub eye_distance: f64,
     /// Whether the light is inside V, its planes included.
     pub inside_view: bool,
@@ -190,18 +191,17 @@ impl VirtualCamera {
     }
 
     /// The camera moved back until every point of H lies beyond its near plane: by the least s that brings the nearest
-    /// one to the near distance. The near distance stays, the far plane grows to hold the old frustum and H, and so does
-    /// the rest of the frustum, which keeps its angle.
+    /// one to the near distance. The near distance stays, the frame keeps its angle, and the far plane grows with s to
+    /// hold H, and with it what is visible of the old frustum.
     ///
     /// An orthographic view has no perspective to weaken and does not move.
     pub(crate) fn moved_back(view: &View, body: &Interval) -> Self {
         if view.lens() == Lens::Orthographic {
             return Self { shift: 0.0, eye: view.eye(), near: view.near(), far: view.far() };
         }
-        let near = view.near();
-        let shift = (near - body.min).max(0.0);
-        let far = if view.far().is_finite() { body.max.max(view.far()) } else { body.max };
-        Self { shift, eye: view.eye() - view.forward() * shift, near, far: beyond(near, far + shift) }
+        let shift = (view.near() - body.min).max(0.0);
+        let (near, far) = (body.min.max(view.near()), body.max + shift);
+        Self { shift, eye: view.eye() - view.forward() * shift, near, far: beyond(near, far) }
     }
 
     /// The rows of the camera's matrix.

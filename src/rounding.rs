@@ -2,6 +2,7 @@
 
 use crate::bounds::{Interval, Rectangle, most};
 use crate::homography::Homography;
+use crate::rays::Rays;
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
 /// Rounding of a row of an f32 matrix at a point, relative to the sum of the magnitudes of its four terms.
@@ -11,66 +12,111 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 /// terms' magnitudes. Eight leave room for terms of second order and for a row that is the sum of two (depth −1 to 1).
 const UNITS: f64 = 8.0 / 16_777_216.0;
 
-/// The largest rounding of the rows a, b, e and c of a homography over points, relative to c there.
+/// The largest rounding of the rows a, b, e and c of a homography, relative to c, over what is visible and over what can
+/// cast on it.
 ///
-/// It bounds that over the points' convex hull too: the sum of magnitudes is convex and c is linear, so that their
+/// A bound over points bounds their convex hull too: the sum of magnitudes is convex and c is linear, so that their
 /// ratio is largest at a vertex.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rounding {
     /// Magnitudes of the rows about the origin, as the columns of a matrix.
     magnitudes: DMat4,
     origin: DVec3,
-    /// Largest rounding of a/c, b/c, e/c and, relative, of c.
-    worst: DVec4,
+    visible: Worst,
+    casting: Worst,
+    /// Whether the light is at a position, so that casters may come close to it.
+    local: bool,
 }
+
+/// The largest rounding of a/c, b/c, e/c and, relative, of c over some points.
+#[derive(Clone, Copy, Debug, Default)]
+struct Worst {
+    across: DVec2,
+    depth: f64,
+    w: f64,
+}
+
+impl Worst {
+    fn include(&mut self, here: DVec4) {
+        self.across = DVec2::new(most(self.across.x, here.x), most(self.across.y, here.y));
+        self.depth = most(self.depth, here.z);
+        self.w = most(self.w, here.w);
+    }
+
+    /// Rounding of depths above `least`, whose row is e − least·c.
+    fn of_depth(&self, least: f64) -> f64 {
+        self.depth + least.abs() * self.w
+    }
+
+    /// Rounding of positions across a window, whose rows are a and b less the centre times c.
+    fn of_window(&self, window: &Rectangle) -> DVec2 {
+        self.across + window.centre.abs() * self.w
+    }
+}
+
+/// A caster next to a light at a position is seen from there through few bits. Such casters may ask for this part of the
+/// window as padding and no more: beyond that the map is for what is visible.
+const MOST_FOR_LOCAL_CASTERS: f64 = 1.0 / 1024.0;
 
 impl Rounding {
     /// No points yet; positions are taken relative to `origin`.
-    pub(crate) fn new(map: &Homography, origin: DVec3) -> Self {
+    pub(crate) fn new(map: &Homography, rays: &Rays, origin: DVec3) -> Self {
         let rows = map.rows;
         let about = rows.x_axis * origin.x + rows.y_axis * origin.y + rows.z_axis * origin.z + rows.w_axis;
-        let columns = [rows.x_axis, rows.y_axis, rows.z_axis, about].map(|column| column.abs() * UNITS);
-        let [x, y, z, w] = columns;
-        Self { magnitudes: DMat4::from_cols(x, y, z, w), origin, worst: DVec4::ZERO }
+        let [x, y, z, w] = [rows.x_axis, rows.y_axis, rows.z_axis, about].map(|column| column.abs() * UNITS);
+        let (visible, casting) = (Worst::default(), Worst::default());
+        Self { magnitudes: DMat4::from_cols(x, y, z, w), origin, visible, casting, local: rays.local }
     }
 
-    /// Takes in a point, with c there.
     #[inline]
-    pub(crate) fn include(&mut self, point: DVec3, c: f64) {
+    fn at(&self, point: DVec3, c: f64) -> DVec4 {
         let DVec3 { x, y, z } = (point - self.origin).abs();
         let m = &self.magnitudes;
-        let here = (m.x_axis * x + m.y_axis * y + m.z_axis * z + m.w_axis) * c.recip();
-        let worst = &mut self.worst;
-        *worst = DVec4::new(
-            most(worst.x, here.x),
-            most(worst.y, here.y),
-            most(worst.z, here.z),
-            most(worst.w, here.w),
-        );
+        (m.x_axis * x + m.y_axis * y + m.z_axis * z + m.w_axis) * c.recip()
     }
 
-    /// Relative rounding of w, as far as it makes sense to think of it as small.
-    fn of_w(&self) -> f64 {
-        self.worst.w.min(0.5)
+    /// Takes in a visible point, with c there.
+    #[inline]
+    pub(crate) fn include_visible(&mut self, point: DVec3, c: f64) {
+        self.visible.include(self.at(point, c));
+    }
+
+    /// Takes in a point that may cast, with c there.
+    #[inline]
+    pub(crate) fn include_casting(&mut self, point: DVec3, c: f64) {
+        self.casting.include(self.at(point, c));
+    }
+
+    /// Rounding of the depths of everything.
+    pub(crate) fn of_depth(&self, least: f64) -> f64 {
+        self.visible.of_depth(least).max(self.casting.of_depth(least))
     }
 
     /// Half extents of a window that holds `window` after rounding in the `inner` part of a map of `size` texels a
     /// side, no smaller than `least`, nor so small that a texel would be less than the rounding.
     pub(crate) fn padded_window(&self, window: &Rectangle, inner: f64, size: u32, least: f64) -> DVec2 {
-        // The row is a − centre·c.
-        let rounding = self.worst.truncate().truncate() + window.centre.abs() * self.worst.w;
-        let padded = (window.half + rounding) / ((1.0 - self.of_w()) * inner);
-        padded.max(rounding * (0.5 * f64::from(size))).max(DVec2::splat(least))
+        let visible = self.visible.of_window(window);
+        let (mut casting, mut casting_w) = (self.casting.of_window(window), self.casting.w);
+        if self.local {
+            casting = casting.min(window.half * MOST_FOR_LOCAL_CASTERS);
+            casting_w = casting_w.min(MOST_FOR_LOCAL_CASTERS);
+        }
+        let w = self.visible.w.max(casting_w).min(0.5);
+        let padded = (window.half + visible.max(casting)) / ((1.0 - w) * inner);
+        padded.max(visible * (0.5 * f64::from(size))).max(DVec2::splat(least))
     }
 
-    /// A depth range that holds `depth` after rounding, no shorter than `least`, nor so short that the rounding would
-    /// be more than a thousandth of it.
+    /// A depth range that holds `depth` after rounding, no shorter than `least`, nor so short that the rounding of what
+    /// is visible would be more than a thousandth of it.
     pub(crate) fn padded_depth(&self, depth: &Interval, least: f64) -> Interval {
-        // The row is e − min·c, and w less that.
-        let rounding = self.worst.z + depth.min.abs() * self.worst.w;
         let length = depth.max - depth.min;
-        let pad = 2.0 * (rounding + length * self.of_w());
-        let half = (0.5 * length + pad).max(512.0 * rounding).max(0.5 * least);
-        Interval { min: depth.middle() - half, max: depth.middle() + half }
+        // Twice the rounding of z and of w, at either end that of what lies there; casters next to a light may at most
+        // double the range.
+        let pad = |worst: &Worst| 2.0 * (worst.of_depth(depth.min) + length * worst.w);
+        let far = pad(&self.visible);
+        let near = far.max(pad(&self.casting).min(length));
+        let shortest = least.max(1024.0 * self.visible.of_depth(depth.min));
+        let missing = 0.5 * (shortest - (length + near + far)).max(0.0);
+        Interval { min: depth.min - near - missing, max: depth.max + far + missing }
     }
 }

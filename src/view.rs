@@ -174,7 +174,8 @@ impl View {
         self.eye
     }
 
-    /// The unit axis to the right of the image, in world space.
+    /// The unit axis to the right of the image, in world space. [`Self::perspective`] and [`Self::orthographic`] take
+    /// the world to be right-handed; in a left-handed one theirs points to the left, which changes no result.
     #[must_use]
     pub const fn right(&self) -> DVec3 {
         self.right
@@ -290,9 +291,8 @@ impl View {
         let centre = (self.frame_min + self.frame_max) * 0.5;
         let half = (self.frame_max - self.frame_min) * 0.5;
         let unit = self.frame_unit();
-        let row = |axis: DVec3, centre: f64, half: f64| {
-            (Plane::through(axis, self.eye) - unit * centre) * half.recip()
-        };
+        let row =
+            |axis: DVec3, centre: f64, half: f64| (Plane::through(axis, self.eye) - unit * centre) * half.recip();
         let depth = self.depth_row();
         let z = match self.lens {
             // Divided through by `far`, so that an infinite one is no special case.
@@ -487,9 +487,9 @@ mod stored {
         type Error = InputError;
         fn try_from(view: View) -> Result<Self, InputError> {
             let View { eye, right, up, forward, lens, frame_min, frame_max, near, far } = view;
-            let units = [right, up, forward].iter().all(|axis| axis.is_normalized());
-            let square = [right.dot(up), up.dot(forward), forward.dot(right)].iter().all(|dot| dot.abs() < 1e-9);
-            if !(units && square) {
+            let units = [right, up, forward].map(|axis| axis.length_squared() - 1.0);
+            let square = [right.dot(up), up.dot(forward), forward.dot(right)];
+            if !units.iter().chain(&square).all(|error| error.abs() < 1e-9) {
                 return check::fail("forward", Problem::NotRigid);
             }
             Self::checked(eye, Axes { right, up, forward }, lens, frame_min, frame_max, near, far)

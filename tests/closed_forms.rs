@@ -13,13 +13,14 @@ use approx::assert_relative_eq;
 use shadowfit::glam::DVec3;
 use shadowfit::{ClassKind, Focus, Light, Map, Outcome, Scene, Settings, Shift, View, Warp, classify, fit};
 
-/// The field of view has 2T = 1.
-const SLOPE: f64 = 0.5;
+/// The field of view with 2T = 1, twice the angle whose tangent is a half.
+const FOV: f64 = 0.927_295_218_001_612_2;
 /// As many texels a side as the image has pixels, so that a ratio of sizes is a ratio of counts.
 const PIXELS: u32 = 1024;
 
 fn settings(warp: Warp) -> Settings {
-    Settings::new(PIXELS, PIXELS).unwrap().with_border(0).unwrap().with_warp(warp)
+    let settings = Settings::new(PIXELS, PIXELS).unwrap().with_border(0).unwrap();
+    settings.with_warp(warp).with_shift(Shift::None)
 }
 
 fn map(outcome: Outcome) -> Map {
@@ -28,7 +29,7 @@ fn map(outcome: Outcome) -> Map {
 
 /// Texels needed across and along the warp for each pixel, the worst over V.
 fn needed(far: f64, warp: Warp) -> (f64, f64) {
-    let view = View::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 2.0 * SLOPE.atan(), 1.0, 1.0, far).unwrap();
+    let view = View::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, FOV, 1.0, 1.0, far).unwrap();
     let light = Light::directional(DVec3::Y).unwrap();
     let side = DVec3::splat(2.0 * far);
     let scene = Scene::from_box(-side, side).unwrap();

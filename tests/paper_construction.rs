@@ -9,6 +9,8 @@
 //! number of roundings in a chain of operations times the magnitude of the terms that go into it, carried along with
 //! the numbers ([`Traced`]); none is an absolute number.
 
+#![expect(clippy::disallowed_methods, reason = "powers spread the random cases, they are no part of a fit")]
+
 use shadowfit::glam::{DMat4, DVec3, DVec4};
 use shadowfit::{
     ClassKind, ClipSpace, Focus, Form, Light, Map, Outcome, Scene, Settings, Shift, View, Warp, classify,

@@ -6,14 +6,11 @@ use parry3d::math::Vector;
 use parry3d::query::PointQuery;
 use parry3d::shape::{ConvexPolyhedron, Cuboid};
 use shadowfit::glam::{DQuat, DVec3, Vec3};
-use shadowfit::{
-    Aabb, Body, ConvexScene, Focus, Form, InputError, Light, Problem, Scene, View,
-};
+use shadowfit::{Aabb, Body, ConvexScene, Focus, Form, InputError, Light, Problem, Scene, View};
 
 /// A view that sees all around the origin, up to a hundred units away, and a light above it.
 fn visible(scene: &Scene<'_>) -> Body {
-    let view =
-        View::orthographic(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 100.0, 1.0, -100.0, 100.0).unwrap();
+    let view = View::orthographic(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 100.0, 1.0, -100.0, 100.0).unwrap();
     let light = Light::directional(DVec3::new(0.3, 1.0, 0.2)).unwrap();
     Focus::new(&view, &light, scene).visible()
 }
@@ -53,9 +50,7 @@ fn a_turned_box_keeps_its_faces() {
     let half = DVec3::new(3.0, 1.0, 2.0);
     let points = turned_box(half, DQuat::from_euler(shadowfit::glam::EulerRot::XYZ, 0.3, 0.5, 0.2));
     let polyhedron = ConvexPolyhedron::from_convex_hull(&to_parry(&points)).unwrap();
-    for scene in
-        [ConvexScene::from_parry(&polyhedron).unwrap(), ConvexScene::hull_of(&points).unwrap()]
-    {
+    for scene in [ConvexScene::from_parry(&polyhedron).unwrap(), ConvexScene::hull_of(&points).unwrap()] {
         assert_holds(&scene, &points);
         // Planes with f32 normals, moved out to the farthest point: an ulp of the size on each side.
         let volume = visible(&Scene::from_convex(&scene)).volume();
@@ -63,7 +58,7 @@ fn a_turned_box_keeps_its_faces() {
         assert!((volume / exact - 1.0).abs() < 1e-5, "{volume}, not {exact}");
     }
     // What the directions to a cube's edges and faces leave is much larger.
-    let around = ConvexScene::around(points.iter().map(Vec3::as_dvec3)).unwrap();
+    let around = ConvexScene::around(points.iter().map(|point| point.as_dvec3())).unwrap();
     assert!(visible(&Scene::from_convex(&around)).volume() > 1.1 * 48.0);
 }
 
@@ -87,7 +82,7 @@ fn many_faces_are_bounded_by_the_directions_of_a_cube() {
         .collect();
     let scene = ConvexScene::hull_of(&points).unwrap();
     assert_holds(&scene, &points);
-    let around = ConvexScene::around(points.iter().map(Vec3::as_dvec3)).unwrap();
+    let around = ConvexScene::around(points.iter().map(|point| point.as_dvec3())).unwrap();
     let [ours, theirs] = [&scene, &around].map(|scene| visible(&Scene::from_convex(scene)).volume());
     assert_eq!(ours, theirs);
 }
@@ -121,9 +116,7 @@ fn bad_points_are_refused() {
 
 #[test]
 fn a_focus_body_becomes_a_polyhedron() {
-    let view =
-        View::perspective(DVec3::new(0.0, 2.0, 9.0), DVec3::NEG_Z, DVec3::Y, 1.0, 1.5, 0.1, 50.0)
-            .unwrap();
+    let view = View::perspective(DVec3::new(0.0, 2.0, 9.0), DVec3::NEG_Z, DVec3::Y, 1.0, 1.5, 0.1, 50.0).unwrap();
     let light = Light::directional(DVec3::new(0.4, 1.0, 0.3)).unwrap();
     let scene = Scene::from_box(DVec3::new(-9.0, 0.0, -9.0), DVec3::new(9.0, 4.0, 9.0)).unwrap();
     let body = Focus::new(&view, &light, &scene).body(Form::Tight);

@@ -4,17 +4,19 @@
 //! environment runs that many of each instead. A failing case is made smaller and printed as the
 //! Rust expression that makes it.
 
+#![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
+
 mod arbitrary;
 
 use arbitrary::{
     Case, Frame, LightParams, Pose, SceneParams, SceneStore, Similarity, ViewParams, case, clip_space, number_bits,
-    plane, rotation, run,
+    rotation, run,
 };
-use glam::{DMat4, DQuat, DVec2, DVec3, DVec4, Vec4};
+use glam::{DMat4, DQuat, DVec3, DVec4, Vec4};
 use proptest::prelude::*;
 use shadowfit::{
-    Body, ClipSpace, ConvexScene, DepthFormat, DepthRange, Focus, Form, Light, Map, Origin, Outcome, Plane, Scene, Settings,
-    Shift, View, Warp, classify,
+    Body, ClipSpace, ConvexScene, DepthRange, DepthResolution, Focus, Form, Light, Map, Origin, Outcome, Plane,
+    Scene, Settings, Shift, View, Warp, classify,
 };
 
 /// Settings of every kind.
@@ -56,24 +58,67 @@ impl Together {
     }
 }
 
-/// The vertices of a body and convex combinations of them.
-fn points_of(body: &Body, weights: &[[f64; 4]]) -> Vec<DVec3> {
+impl Together {
+    /// Points of H: from points of R towards the light, as far as the planes of H reach and to somewhere on the way.
+    ///
+    /// The vertices of H as computed may be a few roundings outside of hull(R, l), which is nothing to a caster but
+    /// much to a light that grazes a flat scene.
+    fn casters(&self, body: &Body, visible: &[DVec3], seed: u64) -> Vec<DVec3> {
+        let mut numbers = Numbers(!seed);
+        let l = self.light.homogeneous();
+        let mut points = Vec::new();
+        for &point in visible {
+            let towards = l.truncate() - point * l.w;
+            let most = if l.w > 0.0 { 1.0 } else { f64::INFINITY };
+            let exit = |plane: Plane| {
+                let slope = plane.normal.dot(towards);
+                if slope < 0.0 { plane.at(point) / -slope } else { f64::INFINITY }
+            };
+            let reach = body.planes().map(exit).fold(most, f64::min);
+            // Among lists H need not hold what is visible.
+            if reach.is_finite() && body.contains(point) {
+                points.extend([1.0, numbers.part()].map(|part| point + towards * (reach * part)));
+            }
+        }
+        points
+    }
+}
+
+/// The vertices of a body and sixteen convex combinations of them, chosen by a seed.
+fn points_of(body: &Body, seed: u64) -> Vec<DVec3> {
     let vertices = body.vertices();
     let mut points = vertices.to_vec();
     if vertices.is_empty() {
         return points;
     }
-    for (first, weights) in weights.iter().enumerate() {
-        // A stride that is prime to all small counts reaches every vertex.
-        let corners = (0..4).map(|i| vertices[(first * 7 + i * 5) % vertices.len()]);
-        let total: f64 = weights.iter().sum();
-        points.push(corners.zip(weights).map(|(corner, weight)| corner * (weight / total)).sum());
+    let mut numbers = Numbers(seed);
+    for _ in 0..16 {
+        let corners = [(); 4].map(|()| (vertices[numbers.below(vertices.len())], numbers.part() + 1e-6));
+        let total: f64 = corners.iter().map(|(_, weight)| weight).sum();
+        points.push(corners.iter().map(|(corner, weight)| corner * (weight / total)).sum());
     }
     points
 }
 
-fn weights() -> impl Strategy<Value = Vec<[f64; 4]>> {
-    prop::collection::vec(prop::array::uniform4(1e-6..1.0), 16)
+/// Numbers from a seed (SplitMix64), where a strategy of their own would drown a failing case in numbers.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mixed = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^ mixed >> 31
+    }
+
+    /// From 0 to 1, 1 excluded.
+    fn part(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.part() * count as f64) as usize
+    }
 }
 
 /// What the f32 matrix makes of a position that is an f32 too, as a vertex shader does it.
@@ -85,36 +130,62 @@ fn in_f32(map: &Map, view: &View, point: DVec3) -> Vec4 {
     map.matrix() * (point - origin).as_vec3().extend(1.0)
 }
 
-/// Whether a point is inside the clip volume of a convention, `inner` of the way to its sides.
-fn is_inside(clip: ClipSpace, position: Vec4, inner: f64) -> bool {
-    let [x, y, z, w] = position.to_array().map(f64::from);
-    let (near, far) = match clip.depth {
-        DepthRange::ZeroToOne | DepthRange::ZeroToOneReversed => (0.0, w),
-        DepthRange::NegativeOneToOne | DepthRange::NegativeOneToOneReversed => (-w, w),
+/// Whether f32 can tell w from zero at a point: eight roundings of its terms leave half of it.
+///
+/// A scene of millimetres about a lamp a thousand kilometres from the origin is beyond a matrix for world space.
+fn is_resolved(map: &Map, view: &View, point: DVec3) -> bool {
+    const UNITS: f64 = 8.0 / 16_777_216.0;
+    let row = map.shadow_from_world().row(3);
+    let (origin, arm) = match map.settings().origin() {
+        Origin::World => (DVec3::ZERO, point),
+        Origin::Eye => (view.eye(), point - view.eye()),
     };
-    w > 0.0 && x.abs() <= inner * w && y.abs() <= inner * w && near <= z && z <= far
+    let offset = row.dot(origin.extend(1.0)).abs();
+    UNITS * (row.truncate().abs().dot(arm.abs()) + offset) < 0.5 * row.dot(point.extend(1.0))
+}
+
+/// Whether a position is inside the sides of the clip volume, `inner` of the way from its middle.
+fn is_in_window(position: Vec4, inner: f64) -> bool {
+    let [x, y, _, w] = position.to_array().map(f64::from);
+    w > 0.0 && x.abs() <= inner * w && y.abs() <= inner * w
+}
+
+/// Whether a position is behind the near end of the depth range of a convention, and before its far end.
+fn is_in_depth(clip: ClipSpace, position: Vec4) -> [bool; 2] {
+    let (z, w) = (position.z, position.w);
+    match clip.depth {
+        DepthRange::ZeroToOne => [z >= 0.0, z <= w],
+        DepthRange::ZeroToOneReversed => [z <= w, z >= 0.0],
+        DepthRange::NegativeOneToOne => [z >= -w, z <= w],
+        DepthRange::NegativeOneToOneReversed => [z <= w, z >= -w],
+    }
 }
 
 #[test]
 fn maps_hold_what_they_must() {
-    run(5000, &(case(), settings(), weights()), |(case, settings, weights)| {
+    run(5000, &(case(), settings(), any::<u64>()), |(case, settings, seed)| {
         let together = Together::of(&case);
         let focus = together.focus();
         let Outcome::Map(map) = focus.fit(&settings) else { return };
         // The border is measured in f64 after the division, which is a rounding more than the map answers for.
         let border = f64::from(settings.border()) / f64::from(settings.map_size());
         let inner = (1.0 - 2.0 * border) * (1.0 + f64::EPSILON);
-        for (name, body, inner) in [("R", focus.visible(), inner), ("H", focus.body(Form::Tight), 1.0)] {
-            for point in points_of(&body, &weights) {
-                if !together.is_served(point) {
+        let visible = points_of(&focus.visible(), seed);
+        let body = focus.body(Form::Tight);
+        let casters = together.casters(&body, &visible, seed);
+        for (name, points, inner) in [("R", visible, inner), ("H", casters, 1.0)] {
+            for point in points {
+                if !together.is_served(point) || !is_resolved(&map, &together.view, point) {
                     continue;
                 }
                 let position = in_f32(&map, &together.view, point);
-                assert!(
-                    is_inside(settings.clip(), position, inner),
-                    "{name}: {point} is at {position}, {} of the window",
-                    position.truncate() / position.w
-                );
+                let shown = position.truncate() / position.w;
+                assert!(is_in_window(position, inner), "{name}: {point} is at {shown}, w {}", position.w);
+                // Among lists, receivers may be nearer to the light than the first caster.
+                let separate = matches!(case.scene, SceneParams::Lists { .. });
+                let [behind, before] = is_in_depth(settings.clip(), position);
+                assert!(behind || separate && name == "R", "{name}: {point} is before the near end, at {shown}");
+                assert!(before, "{name}: {point} is beyond the far end, at {shown}");
             }
         }
     });
@@ -127,7 +198,8 @@ fn maps_hold_what_they_must() {
 fn at(row: DVec4, point: DVec3, reach: DVec3) -> (f64, f64) {
     const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
     let terms = row.truncate().abs().dot(point.abs() + reach) + row.w.abs();
-    (row.dot(point.extend(1.0)), ROUNDINGS * terms)
+    // Terms may also be too small to be rounded like others.
+    (row.dot(point.extend(1.0)), ROUNDINGS * terms + f64::MIN_POSITIVE)
 }
 
 /// Coordinates after the division by w, how far rounding can carry them, and w itself.
@@ -137,15 +209,14 @@ fn projected(matrix: &DMat4, point: DVec3, reach: DVec3) -> (DVec3, DVec3, f64) 
     let coordinates = [rows.x_axis, rows.y_axis, rows.z_axis].map(|row| {
         let (value, slack) = at(row, point, reach);
         let least = (w - w_slack).max(f64::MIN_POSITIVE);
-        (value / w, (slack + (value / w).abs() * w_slack) / least)
+        (value / w, (slack + (value / w).abs() * w_slack) / least + f64::MIN_POSITIVE)
     });
     (DVec3::from(coordinates.map(|(value, _)| value)), DVec3::from(coordinates.map(|(_, slack)| slack)), w)
 }
 
 #[test]
 fn rays_keep_their_place_and_gain_depth() {
-    let parts = prop::collection::vec(0.0..1.0, 4);
-    run(5000, &(case(), settings(), weights(), parts), |(case, settings, weights, parts)| {
+    run(5000, &(case(), settings(), any::<u64>()), |(case, settings, seed)| {
         let together = Together::of(&case);
         let focus = together.focus();
         let Outcome::Map(map) = focus.fit(&settings) else { return };
@@ -154,13 +225,14 @@ fn rays_keep_their_place_and_gain_depth() {
         let (min, max) = case.scene.bounds();
         let (min, max) = (DVec3::from(min), DVec3::from(max));
         let reach = min.abs().max(max.abs()) + together.view.eye().abs() + l.truncate().abs() * l.w;
-        for point in points_of(&focus.visible(), &weights) {
+        let mut numbers = Numbers(!seed);
+        for point in points_of(&focus.visible(), seed) {
             if !together.is_served(point) {
                 continue;
             }
             let (end, end_slack, end_w) = projected(&matrix, point, reach);
             assert!(end_w > 0.0, "{point} has w {end_w}");
-            for part in &parts {
+            for _ in 0..4 {
                 // Beyond the near distance of a lamp; twice as far as the scene is large from the sun, so that many a
                 // caster is behind the eye.
                 let to_light = match together.light.position() {
@@ -170,7 +242,7 @@ fn rays_keep_their_place_and_gain_depth() {
                     }
                     None => l.truncate() * (2.0 * (max - min).length()),
                 };
-                let caster = point + to_light * *part;
+                let caster = point + to_light * numbers.part();
                 let (start, start_slack, start_w) = projected(&matrix, caster, reach);
                 assert!(start_w > 0.0, "{caster} has w {start_w}");
                 let slack = end_slack + start_slack;
@@ -194,6 +266,8 @@ struct Crossing {
 }
 
 impl Crossing {
+    const LAMP_NEAR: f64 = 0.1;
+
     fn strategy() -> impl Strategy<Value = Self> {
         let across = (0.0..std::f64::consts::TAU, 0.5..50.0, any::<bool>()).prop_map(
             |(angle, distance, lamp): (f64, f64, bool)| {
@@ -220,7 +294,7 @@ impl Crossing {
     fn light(&self, view: &View, depth: f64) -> Light {
         let offset = view.right() * self.across[0] + view.up() * self.across[1] + view.forward() * depth;
         let light = if self.lamp {
-            Light::point(view.eye() + offset, 1e-3, f64::INFINITY)
+            Light::point(view.eye() + offset, Self::LAMP_NEAR, f64::INFINITY)
         } else {
             Light::directional(offset)
         };
@@ -246,6 +320,10 @@ fn maps_change_continuously_across_the_camera_plane() {
             let (place, slack, _) = projected(&map.shadow_from_world(), point, reach + view.eye().abs());
             (place, slack.max_element())
         };
+        // What rounding does to a fit, a light that is somewhere else by some roundings of the coordinates would do too.
+        let rounding = 64.0 * f64::EPSILON * (reach.max_element() + crossing.height);
+        // The depth range begins this near to a lamp, where roundings of the coordinates are a larger part.
+        let at_near = if crossing.lamp { rounding / Crossing::LAMP_NEAR } else { 0.0 };
         let mut steepest: f64 = 0.0;
         for k in 0..=16 {
             for depth in [10_f64.powi(-k), -10_f64.powi(-k)] {
@@ -253,15 +331,299 @@ fn maps_change_continuously_across_the_camera_plane() {
                 for &point in visible.vertices() {
                     let ((a, a_slack), (b, b_slack)) = (place(&map, point), place(&middle, point));
                     let change = (a - b).abs().max_element();
-                    if k < 4 {
+                    if k < 8 {
                         steepest = steepest.max(change / depth.abs());
                     } else {
-                        // Kinks where another vertex begins to limit the warp may double a slope and double it again.
-                        let allowed = 4.0 * steepest * depth.abs() + a_slack + b_slack;
+                        // Kinks, where another vertex begins to limit the warp, may double a slope and double it again.
+                        let allowed = 4.0 * steepest * (depth.abs() + rounding) + a_slack + b_slack + at_near;
                         assert!(change <= allowed, "λw = {depth:e}: {point} moves by {change:e}, not {allowed:e}");
                     }
                 }
             }
         }
     });
+}
+
+#[test]
+fn scaling_by_a_power_of_two_changes_no_bit() {
+    run(2000, &(case(), settings(), -20..=20_i32), |(case, settings, exponent)| {
+        let scale = 2_f64.powi(exponent);
+        let [larger, back] = [scale, scale.recip()].map(|scale| Similarity { scale, offset: [0.0; 3] });
+        let scaled = larger.apply(&case);
+        // Numbers that leave the range of f32 or the normal range of f64 on the way do not scale.
+        if !scaled.is_accepted() || back.apply(&scaled) != case {
+            return;
+        }
+        let (here, there) = (Together::of(&case), Together::of(&scaled));
+        let (here, there) = (here.focus(), there.focus());
+        let bodies = |focus: &Focus<'_>| [focus.visible(), focus.body(Form::Paper), focus.body(Form::Tight)];
+        for (body, scaled) in bodies(&here).iter().zip(&bodies(&there)) {
+            let expected: Vec<_> = body.vertices().iter().map(|vertex| vertex * scale).collect();
+            assert_eq!(scaled.vertices(), expected);
+        }
+        let (Outcome::Map(map), Outcome::Map(scaled)) = (here.fit(&settings), there.fit(&settings)) else {
+            assert_eq!(here.fit(&settings).map(), None);
+            assert_eq!(there.fit(&settings).map(), None);
+            return;
+        };
+        let clip = |map: &Map, point: DVec3| map.shadow_from_world().project_point3(point);
+        for &point in here.visible().vertices() {
+            assert_eq!(clip(&scaled, point * scale), clip(&map, point));
+        }
+    });
+}
+
+/// A view, a light and a slanted block, to be turned and moved together.
+#[derive(Clone, Copy, Debug)]
+struct Movable {
+    eye: [f64; 3],
+    fov_y: f64,
+    /// Towards the sun, or where a lamp is.
+    light: [f64; 3],
+    lamp: bool,
+    centre: [f64; 3],
+    half: [f64; 3],
+    slant: DQuat,
+}
+
+impl Movable {
+    fn strategy() -> impl Strategy<Value = Self> {
+        let triple = |reach: f64| prop::array::uniform3(-reach..reach);
+        let half = prop::array::uniform3(1.0..10.0);
+        (triple(20.0), 0.5..1.5, triple(50.0), any::<bool>(), triple(10.0), half, rotation())
+            .prop_filter(
+                "the eye and the light are off the origin, which one looks at and the other shines on",
+                |(eye, _, light, ..)| [*eye, *light].iter().all(|point| DVec3::from(*point).length() > 1.0),
+            )
+            .prop_map(|(eye, fov_y, light, lamp, centre, half, slant)| Self {
+                eye,
+                fov_y,
+                light,
+                lamp,
+                centre,
+                half,
+                slant,
+            })
+    }
+
+    /// The fit after a motion, and R.
+    fn fit(&self, settings: &Settings, turn: DQuat, offset: DVec3) -> (Option<Map>, Body) {
+        let moved = |point: DVec3| turn * point + offset;
+        let eye = DVec3::from(self.eye);
+        let up = DVec3::Y + eye.any_orthogonal_vector() * 0.1;
+        let view = View::perspective(moved(eye), turn * -eye, turn * up, self.fov_y, 1.5, 0.1, 200.0);
+        let light = DVec3::from(self.light);
+        let light = if self.lamp {
+            Light::point(moved(light), 0.1, f64::INFINITY)
+        } else {
+            Light::directional(turn * light)
+        };
+        let (centre, half) = (moved(self.centre.into()), DVec3::from(self.half));
+        let planes = DVec3::AXES.map(|axis| {
+            let normal = turn * (self.slant * axis);
+            [normal, -normal].map(|normal| Plane::through(normal, centre - normal * half.dot(axis)))
+        });
+        let room = DVec3::splat(2.0 * half.length());
+        let block = ConvexScene::new(centre - room, centre + room, planes.as_flattened()).expect("a block");
+        let scene = Scene::from_convex(&block);
+        let (view, light) = (view.expect("a legal view"), light.expect("a legal light"));
+        let focus = Focus::new(&view, &light, &scene);
+        (focus.fit(settings).map().copied(), focus.visible())
+    }
+}
+
+#[test]
+fn turning_and_moving_everything_changes_nothing() {
+    let offset = prop::array::uniform3(-100.0..100.0);
+    run(2000, &(Movable::strategy(), settings(), rotation(), offset), |(movable, settings, turn, offset)| {
+        // What f32 can resolve about the origin of the world limits the warp.
+        let settings = settings.with_origin(Origin::Eye);
+        let offset = DVec3::from(offset);
+        let (here, visible) = movable.fit(&settings, DQuat::IDENTITY, DVec3::ZERO);
+        let (there, moved) = movable.fit(&settings, turn, offset);
+        assert_eq!(visible.is_empty(), moved.is_empty());
+        let (Some(here), Some(there)) = (here, there) else {
+            assert_eq!(here.is_some(), there.is_some());
+            return;
+        };
+        let clip = |map: &Map, turn: DQuat, offset: DVec3| -> Vec<DVec3> {
+            let matrix = map.shadow_from_world();
+            visible.vertices().iter().map(|&point| matrix.project_point3(turn * point + offset)).collect()
+        };
+        let (here, there) = (clip(&here, DQuat::IDENTITY, DVec3::ZERO), clip(&there, turn, offset));
+        for axis in 0..3 {
+            // What covers the rounding of f32 depends on the axes of the world. It moves and stretches x, y and z, each
+            // by itself, so that parts of the way from the least to the largest stay.
+            let parts = |places: &[DVec3]| -> Option<Vec<f64>> {
+                let least = places.iter().map(|place| place[axis]).fold(f64::INFINITY, f64::min);
+                let most = places.iter().map(|place| place[axis]).fold(f64::NEG_INFINITY, f64::max);
+                let spread = most - least;
+                (spread > 1e-2).then(|| places.iter().map(|place| (place[axis] - least) / spread).collect())
+            };
+            let (Some(here), Some(there)) = (parts(&here), parts(&there)) else { continue };
+            for (a, b) in here.iter().zip(&there) {
+                // Less than f32 can tell apart near the sides of the clip volume.
+                assert!((a - b).abs() < f64::from(f32::EPSILON), "axis {axis}: {a} became {b}");
+            }
+        }
+    });
+}
+
+/// Everything there is to know about a fit; none of it may be NaN.
+fn exercise(view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) {
+    let focus = Focus::new(view, light, scene);
+    for body in [focus.visible(), focus.body(Form::Paper), focus.body(Form::Tight)] {
+        assert!(body.vertices().iter().all(|vertex| vertex.is_finite()), "vertices {:?}", body.vertices());
+        assert!(body.volume().is_finite(), "volume {}", body.volume());
+        assert_eq!(body.is_empty(), body.bounds().is_none());
+        for face in body.faces() {
+            assert!(face.indices().len() >= 3 && face.vertices().all(|corner| corner.is_finite()));
+        }
+        assert!(body.edges().all(|(a, b)| a.is_finite() && b.is_finite()));
+    }
+    let class = classify(view, light);
+    assert!(class.position.is_finite() && class.sine_to_camera_plane.is_finite() && !class.eye_distance.is_nan());
+    let Outcome::Map(map) = focus.fit(settings) else { return };
+    assert!(map.matrix().is_finite(), "{}", map.matrix());
+    assert!(map.texture_matrix().is_finite(), "{}", map.texture_matrix());
+    assert!(map.shadow_from_world().is_finite(), "{}", map.shadow_from_world());
+    let report = map.report(&focus);
+    let DepthResolution { unorm16, unorm24, float32 } = report.depth_resolution;
+    let (window, depth, camera) = (report.window, report.depth, report.camera);
+    let finite = [
+        ("warp ratio", report.warp_ratio),
+        ("weakening", map.weakening()),
+        ("width", window.width),
+        ("height", window.height),
+        ("padding x", window.padding.0),
+        ("padding y", window.padding.1),
+        ("depth near", depth.near),
+        ("shift", camera.shift),
+        ("camera near", camera.near),
+        ("camera far", camera.far),
+    ];
+    for (name, value) in finite {
+        assert!(value.is_finite(), "{name} is {value}");
+    }
+    // What no texel, no depth or no far plane limits may be infinite.
+    let numbers = [
+        ("depth far", depth.far),
+        ("texel", report.texel),
+        ("aliasing", report.aliasing),
+        ("unorm16", unorm16),
+        ("unorm24", unorm24),
+        ("float32", float32),
+    ];
+    for (name, value) in numbers {
+        assert!(!value.is_nan(), "{name} is NaN");
+    }
+}
+
+#[test]
+fn no_result_is_nan() {
+    run(5000, &(case(), settings()), |(case, settings)| {
+        let together = Together::of(&case);
+        let scene = together.store.scene().expect("the scene is accepted");
+        exercise(&together.view, &together.light, &scene, &settings);
+    });
+}
+
+/// Any numbers at all as a view, as a light, and as a scene.
+fn anything() -> impl Strategy<Value = Case> {
+    let number = || prop_oneof![3 => -5.0..5.0, 1 => number_bits()];
+    let triple = move || [number(), number(), number()];
+    let pose = (triple(), triple(), triple()).prop_map(|(eye, forward, up)| Pose { eye, forward, up });
+    let maybe = move || prop::option::of(number());
+    let view = prop_oneof![
+        (pose.clone(), number(), number(), number(), maybe()).prop_map(|(pose, fov_y, aspect, near, far)| {
+            ViewParams::Perspective { pose, fov_y, aspect, near, far }
+        }),
+        (pose.clone(), number(), number(), number(), number()).prop_map(
+            |(pose, half_height, aspect, near, far)| {
+                ViewParams::Orthographic { pose, half_height, aspect, near, far }
+            }
+        ),
+        (
+            pose,
+            any::<bool>(),
+            number(),
+            [number(), number(), number(), number()],
+            (number(), maybe()),
+            clip_space()
+        )
+            .prop_map(|(pose, mirrored, scale, slopes, (near, far), clip)| ViewParams::Matrices {
+                pose,
+                mirrored,
+                scale,
+                frame: Frame { slopes, near, far },
+                clip,
+            }),
+    ];
+    let light =
+        prop_oneof![
+            triple().prop_map(|direction_to_light| LightParams::Directional { direction_to_light }),
+            (triple(), number(), maybe()).prop_map(|(position, near, range)| LightParams::Point {
+                position,
+                near,
+                range
+            }),
+            (triple(), triple(), number(), number(), maybe()).prop_map(
+                |(position, axis, half_angle, near, range)| {
+                    LightParams::Spot { position, axis, half_angle, near, range }
+                }
+            ),
+            (triple(), triple(), number(), maybe())
+                .prop_map(|(position, axis, near, range)| LightParams::Hemisphere { position, axis, near, range }),
+        ];
+    let planes = prop::collection::vec([number(), number(), number(), number()], 0..14);
+    let boxes = move || {
+        prop::collection::vec([triple(), triple()].prop_map(|ends| ends.map(|end| end.map(|x| x as f32))), 0..3)
+    };
+    let scene = prop_oneof![
+        (triple(), triple()).prop_map(|(min, max)| SceneParams::Bounds { min, max }),
+        (triple(), triple(), planes).prop_map(|(min, max, planes)| SceneParams::Cut { min, max, planes }),
+        (boxes(), boxes()).prop_map(|(casters, receivers)| SceneParams::Lists { casters, receivers }),
+    ];
+    (view.boxed(), light.boxed(), scene.boxed()).prop_map(|(view, light, scene)| Case { view, light, scene })
+}
+
+#[test]
+fn any_numbers_make_a_fit_or_a_typed_error() {
+    run(10_000, &(anything(), case(), settings()), |(any, legal, settings)| {
+        // Each part beside legal ones, and all of them together.
+        let (view, light) = legal.build();
+        let (any_view, any_light, any_scene) = (any.view.build(), any.light.build(), any.scene.store());
+        let store = legal.scene.store();
+        let scene = store.scene().expect("the scene is accepted");
+        if let Ok(view) = &any_view {
+            exercise(view, &light, &scene, &settings);
+        }
+        if let Ok(light) = &any_light {
+            exercise(&view, light, &scene, &settings);
+        }
+        if let Ok(scene) = &any_scene.scene() {
+            exercise(&view, &light, scene, &settings);
+        }
+        if let (Ok(view), Ok(light), Ok(scene)) = (&any_view, &any_light, &any_scene.scene()) {
+            exercise(view, light, scene, &settings);
+        }
+    });
+}
+
+/// A vertex of R at a lamp but for a rounding: no ray leads there, and w is zero as far as f64 can tell.
+#[test]
+fn lamp_a_rounding_away_from_a_corner_of_what_is_visible() {
+    let view = View::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, 1.0, 0.1, 100.0).expect("a legal view");
+    let corner = DVec3::new(0.3, 0.2, -4.7);
+    let scene = Scene::from_box(corner, corner + DVec3::new(1.1, 0.7, 1.3)).expect("a legal scene");
+    for index in 0..9_usize.pow(3) {
+        let steps = [index % 9, index / 9 % 9, index / 81].map(|digit| digit as f64 - 4.0);
+        let position = corner + DVec3::from(steps) * f64::EPSILON;
+        for axis in [DVec3::NEG_Z, DVec3::ONE, DVec3::new(1.0, 0.0, 1.0)] {
+            let lamps = [Light::point(position, 0.01, 100.0), Light::hemisphere(position, axis, 0.01, 100.0)];
+            for light in lamps {
+                exercise(&view, &light.expect("a legal light"), &scene, &Settings::default());
+            }
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! The whole check, in order: load, frame, fit, print, draw.
 
 use std::fs;
+use std::io::{Write as _, stderr, stdout};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
@@ -31,9 +32,9 @@ pub fn run(args: &Args) -> Result<()> {
         scene::load(args.scene.as_deref())?
     };
     let (min, max) = scene.mesh.bounds();
-    println!("{}: {} triangles, {min:.3} to {max:.3}", scene.name, scene.mesh.triangles.len());
+    say(&format!("{}: {} triangles, {min:.3} to {max:.3}", scene.name, scene.mesh.triangles.len()));
     if !scene.left_out.is_nothing() {
-        println!("{}", scene.left_out);
+        say(&scene.left_out.to_string());
     }
     let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
     fs::create_dir_all(&out)
@@ -46,32 +47,32 @@ pub fn run(args: &Args) -> Result<()> {
     let camera = choose_camera(args, &scene)?;
     let aspect = f64::from(args.width) / f64::from(args.height);
     let (view, warning) = choose_view(&camera, aspect, &tracer)?;
-    println!(
+    say(&format!(
         "camera: eye {:.3}, forward {:.3}, field of view {:.1} degrees, near {:.4}, far {:.4}",
         view.eye(),
         view.forward(),
         camera.fov_y.to_degrees(),
         view.near(),
         view.far()
-    );
+    ));
     if let Some(warning) = warning {
-        eprintln!("warning: {warning}");
+        complain(&format!("warning: {warning}"));
     }
 
     let fits = choose_lights(args, &scene)
         .into_iter()
         .map(|light| fit_light(light, &view, &scene.mesh, &settings))
         .collect::<Result<Vec<_>>>()?;
-    println!("{}", table(&fits, (min, max)));
+    say(&table(&fits, (min, max)).to_string());
     for (i, fit) in fits.iter().enumerate() {
         if let Some(reason) = reason_without_map(&fit.perspective.outcome) {
-            println!("light {}: no map: {reason}", i + 1);
+            say(&format!("light {}: no map: {reason}", i + 1));
         }
     }
 
     for (i, fit) in fits.iter().enumerate() {
         for path in draw(args, &out, i + 1, fit, &view, &tracer)? {
-            println!("wrote {}", path.display());
+            say(&format!("wrote {}", path.display()));
         }
     }
     Ok(())
@@ -123,4 +124,14 @@ fn map_lens(outcome: &Outcome) -> Result<Option<Lens>> {
         Outcome::Map(map) => Lens::new(map.shadow_from_world()).map(Some),
         _ => Ok(None),
     }
+}
+
+/// Prints a line. Nobody listening (`render-check | head`) is no reason to leave the pictures undrawn.
+fn say(line: &str) {
+    drop(writeln!(stdout(), "{line}"));
+}
+
+/// Prints a line aside from the results.
+pub fn complain(line: &str) {
+    drop(writeln!(stderr(), "{line}"));
 }

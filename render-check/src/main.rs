@@ -9,7 +9,7 @@ fn main() -> ExitCode {
     match check::run(&Args::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error:#}");
+            check::complain(&format!("error: {error:#}"));
             ExitCode::FAILURE
         }
     }

@@ -119,68 +119,71 @@ impl Polyhedron {
 
     /// Replaces the outside vertices.
     fn cut(&mut self, inside: u64, outside: u64, id: PlaneId) {
-        // The edges that cross, each with a slot for its new vertex.
-        let mut crossing = [Crossing::default(); Self::MAX_VERTICES];
-        let mut count = 0;
         let mut free = Bits(!self.alive);
-        for outer in Bits(outside) {
-            for (k, &inner) in (0..).zip(&self.vertices[outer & LAST].neighbours) {
-                if inside >> inner & 1 == 1 {
-                    let Some(slot) = free.next() else { return };
-                    crossing[count & LAST] = Crossing { outer: outer as u8, k, inner, slot: slot as u8 };
-                    count += 1;
-                }
-            }
+        if self.crossings(inside, outside) > free.0.count_ones() {
+            return;
         }
 
         // For each plane, the new vertex on it that waits for the next one.
         let mut waiting = [NOBODY; Self::MAX_PLANES];
         self.alive = inside;
-        for &Crossing { outer, k, inner, slot } in &crossing[..count.min(Self::MAX_VERTICES)] {
-            let below = self.vertices[usize::from(outer) & LAST];
-            let (above_value, below_value) =
-                (self.values[usize::from(inner) & LAST], self.values[usize::from(outer) & LAST]);
-            let above = &mut self.vertices[usize::from(inner) & LAST];
-            let t = above_value / (above_value - below_value);
-            let position = above.position + (below.position - above.position) * t;
-            // Its neighbour is the new vertex now. Two edges to the same neighbour are told apart by being taken once.
-            if let Some(back) = above.neighbours.iter_mut().find(|back| **back == outer) {
-                *back = slot;
-            }
-            let (p, q) = match k {
-                0 => (below.planes[1], below.planes[2]),
-                1 => (below.planes[0], below.planes[2]),
-                _ => (below.planes[0], below.planes[1]),
-            };
-            // Its own neighbour until it finds another: no edge at all.
-            let mut neighbours = [inner, slot, slot];
-            // The edge that lies on p and the clip plane is across from q, and the other way round.
-            for (on, across) in [(p, 2), (q, 1)] {
-                let waits = &mut waiting[usize::from(on) & LAST];
-                if *waits == NOBODY {
-                    *waits = slot;
-                } else {
-                    neighbours[across] = *waits;
-                    let other = &mut self.vertices[usize::from(*waits) & LAST];
-                    let theirs = if other.planes[1] == on { 2 } else { 1 };
-                    other.neighbours[theirs] = slot;
-                    *waits = NOBODY;
+        for outer in Bits(outside) {
+            let below = self.vertices[outer & LAST];
+            for k in 0..3 {
+                let inner = usize::from(below.neighbours[k]) & LAST;
+                if inside >> inner & 1 == 0 {
+                    continue;
                 }
+                let Some(slot) = free.next() else { return };
+                let above = &mut self.vertices[inner];
+                let t = self.values[inner] / (self.values[inner] - self.values[outer & LAST]);
+                let position = above.position + (below.position - above.position) * t;
+                above.replace_neighbour(outer as u8, slot as u8);
+                let (p, q) = (below.planes[(k + 1) % 3], below.planes[(k + 2) % 3]);
+                // Its own neighbour until it finds another: no edge at all.
+                let mut neighbours = [inner as u8, slot as u8, slot as u8];
+                // The edge that lies on p and the clip plane is across from q, and the other way round.
+                for (on, across) in [(p, 2), (q, 1)] {
+                    let waits = &mut waiting[usize::from(on) & LAST];
+                    if *waits == NOBODY {
+                        *waits = slot as u8;
+                    } else {
+                        neighbours[across] = *waits;
+                        let other = &mut self.vertices[usize::from(*waits) & LAST];
+                        let theirs = if other.planes[1] == on { 2 } else { 1 };
+                        other.neighbours[theirs] = slot as u8;
+                        *waits = NOBODY;
+                    }
+                }
+                self.vertices[slot & LAST] = Vertex { position, planes: [id, p, q], neighbours };
+                self.alive |= 1 << slot;
             }
-            self.vertices[usize::from(slot) & LAST] = Vertex { position, planes: [id, p, q], neighbours };
-            self.alive |= 1 << slot;
         }
+    }
+
+    /// The edges between inside and outside vertices.
+    fn crossings(&self, inside: u64, outside: u64) -> u32 {
+        let mut crossings = 0;
+        for slot in Bits(outside) {
+            let [a, b, c] = self.vertices[slot & LAST].neighbours;
+            crossings += (inside >> a & 1) + (inside >> b & 1) + (inside >> c & 1);
+        }
+        crossings as u32
     }
 }
 
-/// An edge that crosses a clip plane: its outside end, which of that one's neighbours the inside end is, and the slot
-/// for the new vertex between them.
-#[derive(Clone, Copy, Debug, Default)]
-struct Crossing {
-    outer: u8,
-    k: u8,
-    inner: u8,
-    slot: u8,
+impl Vertex {
+    /// One neighbour gives way to another. Two edges to the same neighbour are told apart by being replaced once.
+    fn replace_neighbour(&mut self, old: u8, new: u8) {
+        let [a, b, c] = &mut self.neighbours;
+        if *a == old {
+            *a = new;
+        } else if *b == old {
+            *b = new;
+        } else if *c == old {
+            *c = new;
+        }
+    }
 }
 
 /// The last slot. Slots and planes are below 64, which indexing with this mask makes plain to the compiler.

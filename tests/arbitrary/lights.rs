@@ -8,7 +8,7 @@ use super::Similarity;
 use super::primitive::{almost_zero, direction, lattice_direction, magnitude, nudged};
 
 /// The arguments of one of the constructors of a [`Light`].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum LightParams {
     Directional { direction_to_light: [f64; 3] },
     Point { position: [f64; 3], near: f64, range: Option<f64> },
@@ -45,18 +45,15 @@ impl LightParams {
                 near: by.length(near),
                 range: length(range),
             },
-            Self::Hemisphere { position, axis, near, range } => Self::Hemisphere {
-                position: by.point(position),
-                axis,
-                near: by.length(near),
-                range: length(range),
-            },
+            Self::Hemisphere { position, axis, near, range } => {
+                Self::Hemisphere { position: by.point(position), axis, near: by.length(near), range: length(range) }
+            }
         }
     }
 }
 
 /// A light in terms of a view and a scene yet to be known.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Place {
     /// A directional light.
     Sun(Sun),
@@ -65,7 +62,7 @@ pub(crate) enum Place {
 }
 
 /// Where a directional light shines from.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Sun {
     /// Towards this direction in world space.
     World([f64; 3]),
@@ -74,7 +71,7 @@ pub(crate) enum Sun {
 }
 
 /// Where a lamp hangs.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Position {
     /// At the view's right, up and forward from the eye, in units of the scene's size.
     View([f64; 3]),
@@ -90,19 +87,18 @@ pub(crate) enum Position {
 }
 
 /// What a lamp is, with lengths in units of the scene's size.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lamp {
     shape: Shape,
     /// Which way it shines: at the middle of the scene, or anywhere.
     axis: Option<[f64; 3]>,
     near: f64,
-    /// In units of `near`.
     range: Option<f64>,
     /// Steps of the position's coordinates away from where it was put.
     nudge: [i8; 3],
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Shape {
     Point,
     Spot { half_angle: f64 },
@@ -136,9 +132,10 @@ impl Place {
         };
         let position = std::array::from_fn(|i| nudged(position[i], lamp.nudge[i]));
         let to_scene = (min + max) * 0.5 - DVec3::from(position);
-        let axis = lamp.axis.unwrap_or(if to_scene.length() > 0.0 { to_scene.to_array() } else { [0.0, -1.0, 0.0] });
+        let axis =
+            lamp.axis.unwrap_or(if to_scene.length() > 0.0 { to_scene.to_array() } else { [0.0, -1.0, 0.0] });
         let near = lamp.near * size;
-        let range = lamp.range.map(|range| near * range);
+        let range = lamp.range.map(|range| range * size);
         match lamp.shape {
             Shape::Point => LightParams::Point { position, near, range },
             Shape::Spot { half_angle } => LightParams::Spot { position, axis, half_angle, near, range },
@@ -231,9 +228,13 @@ fn lamp() -> impl Strategy<Value = Lamp> {
         1 => direction().prop_map(Some),
         1 => lattice_direction().prop_map(Some),
     ];
-    let range = prop_oneof![Just(None), magnitude(2.0, 1e4).prop_map(Some)];
+    let range = prop_oneof![Just(None), magnitude(0.3, 1e3).prop_map(Some)];
     let nudge = prop_oneof![3 => Just([0; 3]), 1 => prop::array::uniform3(-2..=2_i8)];
-    (shape, axis, magnitude(1e-4, 0.2), range, nudge)
-        .prop_map(|(shape, axis, near, range, nudge)| Lamp { shape, axis, near, range, nudge })
+    (shape, axis, magnitude(1e-4, 0.2), range, nudge).prop_map(|(shape, axis, near, range, nudge)| Lamp {
+        shape,
+        axis,
+        near,
+        range,
+        nudge,
+    })
 }
-

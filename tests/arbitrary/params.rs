@@ -6,7 +6,7 @@ use shadowfit::{InputError, Light, Plane, View};
 use super::{LightParams, SceneParams, ViewParams};
 
 /// A view, a light and a scene as plain numbers.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Case {
     pub(crate) view: ViewParams,
     pub(crate) light: LightParams,
@@ -30,7 +30,7 @@ impl Case {
 }
 
 /// A scaling about the origin followed by a translation.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Similarity {
     pub(crate) scale: f64,
     pub(crate) offset: [f64; 3],
@@ -38,11 +38,7 @@ pub(crate) struct Similarity {
 
 impl Similarity {
     pub(crate) fn apply(&self, case: &Case) -> Case {
-        Case {
-            view: case.view.moved(self),
-            light: case.light.moved(self),
-            scene: case.scene.moved(self),
-        }
+        Case { view: case.view.moved(self), light: case.light.moved(self), scene: case.scene.moved(self) }
     }
 
     pub(crate) fn point(&self, point: [f64; 3]) -> [f64; 3] {

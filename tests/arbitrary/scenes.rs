@@ -8,19 +8,29 @@ use super::primitive::{direction, lattice_direction, magnitude};
 use super::{Similarity, params::plane};
 
 /// The arguments of one of the constructors of a [`Scene`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum SceneParams {
-    Bounds { min: [f64; 3], max: [f64; 3] },
+    Bounds {
+        min: [f64; 3],
+        max: [f64; 3],
+    },
     /// A box cut by planes.
-    Cut { min: [f64; 3], max: [f64; 3], planes: Vec<[f64; 4]> },
+    Cut {
+        min: [f64; 3],
+        max: [f64; 3],
+        planes: Vec<[f64; 4]>,
+    },
     /// Least and largest coordinates of boxes.
-    Lists { casters: Vec<[[f32; 3]; 2]>, receivers: Vec<[[f32; 3]; 2]> },
+    Lists {
+        casters: Vec<[[f32; 3]; 2]>,
+        receivers: Vec<[[f32; 3]; 2]>,
+    },
 }
 
 /// What a [`Scene`] borrows from.
 pub(crate) enum SceneStore {
     Bounds([f64; 3], [f64; 3]),
-    Cut(Result<ConvexScene, InputError>),
+    Cut(Box<Result<ConvexScene, InputError>>),
     Lists(Vec<Aabb>, Vec<Aabb>),
 }
 
@@ -28,8 +38,7 @@ impl SceneStore {
     pub(crate) fn scene(&self) -> Result<Scene<'_>, InputError> {
         match self {
             Self::Bounds(min, max) => Scene::from_box(*min, *max),
-            Self::Cut(Ok(body)) => Ok(Scene::from_convex(body)),
-            Self::Cut(Err(error)) => Err(*error),
+            Self::Cut(body) => body.as_ref().as_ref().map(Scene::from_convex).map_err(|error| *error),
             Self::Lists(casters, receivers) => Scene::new(casters, receivers),
         }
     }
@@ -37,21 +46,22 @@ impl SceneStore {
 
 impl SceneParams {
     pub(crate) fn store(&self) -> SceneStore {
-        let boxes = |list: &[[[f32; 3]; 2]]| list.iter().map(|[min, max]| Aabb::new((*min).into(), (*max).into())).collect();
+        let boxes = |list: &[[[f32; 3]; 2]]| {
+            list.iter().map(|[min, max]| Aabb::new((*min).into(), (*max).into())).collect()
+        };
         match self {
             Self::Bounds { min, max } => SceneStore::Bounds(*min, *max),
             Self::Cut { min, max, planes } => {
                 let planes: Vec<_> = planes.iter().copied().map(plane).collect();
-                SceneStore::Cut(ConvexScene::new(*min, *max, &planes))
+                SceneStore::Cut(Box::new(ConvexScene::new(*min, *max, &planes)))
             }
             Self::Lists { casters, receivers } => SceneStore::Lists(boxes(casters), boxes(receivers)),
         }
     }
 
     pub(crate) fn moved(&self, by: &Similarity) -> Self {
-        let single = |[min, max]: &[[f32; 3]; 2]| {
-            [min, max].map(|corner| by.point(corner.map(f64::from)).map(|x| x as f32))
-        };
+        let single =
+            |[min, max]: &[[f32; 3]; 2]| [min, max].map(|corner| by.point(corner.map(f64::from)).map(|x| x as f32));
         match self {
             Self::Bounds { min, max } => Self::Bounds { min: by.point(*min), max: by.point(*max) },
             Self::Cut { min, max, planes } => Self::Cut {
@@ -83,7 +93,7 @@ impl SceneParams {
 }
 
 /// A scene in terms of a view yet to be known.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Place {
     outline: Outline,
     /// Extents left of the box: a flat one lacks one, a segment two, a point all three.
@@ -91,7 +101,7 @@ pub(crate) struct Place {
     form: Form,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 enum Outline {
     /// A landscape about the point below the eye.
     Landscape { half_width: f64, height: f64 },
@@ -105,7 +115,7 @@ enum Outline {
     Touching { corner: usize, size: [f64; 3] },
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 enum Form {
     Box,
     /// Cut by planes with these normals, at this part of the way from the middle of the box.

@@ -8,17 +8,35 @@ use super::Similarity;
 use super::primitive::{direction, lattice_direction, magnitude};
 
 /// The arguments of one of the constructors of a [`View`].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum ViewParams {
-    Perspective { pose: Pose, fov_y: f64, aspect: f64, near: f64, far: Option<f64> },
-    Orthographic { pose: Pose, half_height: f64, aspect: f64, near: f64, far: f64 },
+    Perspective {
+        pose: Pose,
+        fov_y: f64,
+        aspect: f64,
+        near: f64,
+        far: Option<f64>,
+    },
+    Orthographic {
+        pose: Pose,
+        half_height: f64,
+        aspect: f64,
+        near: f64,
+        far: f64,
+    },
     /// A perspective view by its two matrices; `mirrored` exchanges left and right, `scale` is the
     /// eye's units per world unit.
-    Matrices { pose: Pose, mirrored: bool, scale: f64, frame: Frame, clip: ClipSpace },
+    Matrices {
+        pose: Pose,
+        mirrored: bool,
+        scale: f64,
+        frame: Frame,
+        clip: ClipSpace,
+    },
 }
 
 /// Where a camera is and which way it looks.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pose {
     pub(crate) eye: [f64; 3],
     pub(crate) forward: [f64; 3],
@@ -26,7 +44,7 @@ pub(crate) struct Pose {
 }
 
 /// Slopes of the sides of a perspective view, left, right, bottom and top, and its depth range.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Frame {
     pub(crate) slopes: [f64; 4],
     pub(crate) near: f64,
@@ -68,11 +86,7 @@ impl ViewParams {
                 pose: pose.moved(by),
                 mirrored,
                 scale,
-                frame: Frame {
-                    near: by.length(frame.near),
-                    far: frame.far.map(|far| by.length(far)),
-                    ..frame
-                },
+                frame: Frame { near: by.length(frame.near), far: frame.far.map(|far| by.length(far)), ..frame },
                 clip,
             },
         }
@@ -114,13 +128,8 @@ impl Frame {
             DepthRange::NegativeOneToOne => zero_to_one * 2.0 - w,
             DepthRange::NegativeOneToOneReversed => w - zero_to_one * 2.0,
         };
-        DMat4::from_cols(
-            DVec4::new(x, 0.0, x_centre, 0.0),
-            DVec4::new(0.0, y, y_centre, 0.0) * sign,
-            z,
-            w,
-        )
-        .transpose()
+        DMat4::from_cols(DVec4::new(x, 0.0, x_centre, 0.0), DVec4::new(0.0, y, y_centre, 0.0) * sign, z, w)
+            .transpose()
     }
 }
 
@@ -146,9 +155,8 @@ fn outdoor_view() -> impl Strategy<Value = ViewParams> {
         },
     );
     let far = prop_oneof![3 => (50.0..2000.0).prop_map(Some), 1 => Just(None)];
-    (pose, 0.5..1.8, 0.5..2.5, magnitude(0.05, 2.0), far).prop_map(|(pose, fov_y, aspect, near, far)| {
-        ViewParams::Perspective { pose, fov_y, aspect, near, far }
-    })
+    (pose, 0.5..1.8, 0.5..2.5, magnitude(0.05, 2.0), far)
+        .prop_map(|(pose, fov_y, aspect, near, far)| ViewParams::Perspective { pose, fov_y, aspect, near, far })
 }
 
 /// A camera in a room: any way round, everything near.
@@ -162,8 +170,12 @@ fn indoor_view() -> impl Strategy<Value = ViewParams> {
 fn extreme_view() -> impl Strategy<Value = ViewParams> {
     let fov = prop_oneof![magnitude(1e-3, 3.0), Just(1e-3), Just(3.0)];
     (any_pose(5.0), fov, 0.5..2.5, magnitude(1e-3, 1.0), magnitude(1.001, 1e6)).prop_map(
-        |(pose, fov_y, aspect, near, ratio)| {
-            ViewParams::Perspective { pose, fov_y, aspect, near, far: Some(near * ratio) }
+        |(pose, fov_y, aspect, near, ratio)| ViewParams::Perspective {
+            pose,
+            fov_y,
+            aspect,
+            near,
+            far: Some(near * ratio),
         },
     )
 }
@@ -183,8 +195,9 @@ fn orthographic_view() -> impl Strategy<Value = ViewParams> {
 
 /// Views by their matrices in every convention, off axis.
 fn off_axis_view() -> impl Strategy<Value = ViewParams> {
-    let slopes = (-1.0..1.0, 0.1..2.0, -1.0..1.0, 0.1..2.0)
-        .prop_map(|(left, width, bottom, height): (f64, f64, f64, f64)| [left, left + width, bottom, bottom + height]);
+    let slopes = (-1.0..1.0, 0.1..2.0, -1.0..1.0, 0.1..2.0).prop_map(
+        |(left, width, bottom, height): (f64, f64, f64, f64)| [left, left + width, bottom, bottom + height],
+    );
     let far = prop_oneof![3 => magnitude(2.0, 1e4).prop_map(Some), 1 => Just(None)];
     let frame = (slopes, magnitude(0.01, 1.0), far).prop_map(|(slopes, near, far)| Frame { slopes, near, far });
     (any_pose(5.0), any::<bool>(), prop::sample::select(vec![1.0, 100.0, 1e-3]), frame, clip_space()).prop_map(

@@ -1,279 +1,367 @@
-//! survey
+//! The focus body of the crate against the exact one, on cases at random.
+//!
+//! `cargo test --test oracle focus -- --nocapture` prints the worst figures. An ordinary run takes
+//! 2,000 cases; `SHADOWFIT_CASES=100000` in the environment takes that many.
+//!
+//! The exact bodies are those of the very `f64` planes that the crate hands out, and for each of
+//! R = V ∩ S ∩ L, hull(V, l) ∩ S ∩ L and hull(R, l) ∩ S ∩ L two things are asserted:
+//!
+//! - **Nothing is lost.** No exact vertex lies outside any plane of the computed body, nor outside
+//!   the hull of its vertices, by anything at all: in doubt a body grows. So whatever meets the exact
+//!   body is kept by culling, and where the exact body is not empty the computed one is not.
+//! - **Little is gained.** Every computed vertex lies inside the exact body's half-spaces moved
+//!   outwards by δ, and there is none where that body is empty.
+//!
+//! A plane n·x + offset of V, S or L moves by 2 · 48 ε (|n|·extent + |offset|)/|n|: the core moves it
+//! by half of that, and the other half is what its own argument allows for the rounding of vertices.
+//! The planes of a hull follow. Elimination leaves Y in the computed hull exactly if some β ≥ 0 has
+//! πᵢ(Y) + mᵢ ≥ β (πᵢ·l + eᵢ) for all planes, mᵢ their slack and eᵢ the rounding of πᵢ·l; so Y − βl is
+//! in the body of planes moved by mᵢ + β|eᵢ|, and Y is no farther from hull(V, l) than that body's
+//! vertices are from V's. δ is this displacement, of any three planes of V, and of hull(R, l) the
+//! distance that the vertices of R so moved travel when they move as far again, twice over, since
+//! towards the light other vertices may take over. It carries the conditioning of V and of R: for a
+//! needle the vertices travel far. How far from the exact body a computed vertex is in the end has no
+//! bound but this one: a light that grazes a flat scene turns a rounding into all of it.
+
+use std::cell::RefCell;
 use std::cmp::Ordering;
 
-use glam::DVec3;
-use proptest::strategy::{Strategy, ValueTree};
-use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use shadowfit::{Focus, Form, Plane};
+use glam::{DVec3, Vec3};
+use shadowfit::{Aabb, Body as Computed, Focus, Form, Plane, View};
 
-use crate::arbitrary::{Case, SceneParams, case};
+use crate::arbitrary::{Case, LightParams, Pose, SceneParams, ViewParams, case, plane, run};
 use crate::body::Body;
 use crate::cone::generators;
 use crate::exact::sqrt_ratio;
 use crate::homogeneous::{ExactPlane, ExactPoint, Homogeneous};
 use crate::hull::hull;
 
+/// What the core moves planes by, in units of the sum of the magnitudes of their terms.
 const SLACK: f64 = 48.0 * f64::EPSILON;
 
-fn row(plane: &Plane) -> [f64; 4] {
-    plane.to_row().to_array()
-}
+/// Roundings of a plane's value at the light, in the same units.
+const AT_LIGHT: f64 = 4.0 * f64::EPSILON;
 
-fn exact(planes: &[Plane]) -> Vec<ExactPlane> {
-    planes.iter().map(|plane| Homogeneous::from_f64(row(plane))).collect()
-}
-
-fn outside(plane: &ExactPlane, point: &ExactPoint) -> f64 {
-    let height = plane.dot(point);
-    let [x, y, z] = plane.xyz();
-    let norm2 = x.sqr() + y.sqr() + z.sqr();
-    let distance = sqrt_ratio(height.sqr(), point.w().sqr() * norm2);
-    if plane.side(point) == Ordering::Less { distance } else { -distance }
-}
-
-fn hull_of_points(points: &[ExactPoint]) -> Vec<ExactPlane> {
-    generators(points)
-        .into_iter()
-        .map(|ray| ray.vector)
-        .filter(|plane| plane.xyz().iter().any(|c| !c.is_zero()))
-        .collect()
-}
-
-fn moved(plane: &Plane, by: f64) -> Plane {
-    Plane::new(plane.normal, (plane.offset + by).next_up())
-}
-
-struct Exact {
-    s: Vec<Plane>,
-    l: Vec<Plane>,
+/// The planes of a case, and how large its numbers are.
+struct Input {
+    view: View,
     v: Vec<Plane>,
+    /// S and L.
+    lit: Vec<Plane>,
     light: [f64; 4],
+    /// The largest coordinates in S.
     extent: DVec3,
 }
 
-fn magnitude(plane: &Plane, extent: DVec3) -> f64 {
-    plane.normal.abs().dot(extent) + plane.offset.abs()
-}
-
-impl Exact {
+impl Input {
+    /// None for scenes of lists, whose bounds are the crate's own choice.
     fn of(case: &Case) -> Option<Self> {
+        let cuts = match &case.scene {
+            SceneParams::Bounds { .. } => Vec::new(),
+            SceneParams::Cut { planes, .. } => planes.iter().copied().map(plane).collect(),
+            SceneParams::Lists { .. } => return None,
+        };
         let (view, light) = case.build();
         let (min, max) = case.scene.bounds();
-        let mut s: Vec<Plane> = Vec::new();
-        for axis in 0..3 {
-            let mut n = DVec3::ZERO;
-            n[axis] = 1.0;
-            s.push(Plane::new(n, -min[axis]));
-            s.push(Plane::new(-n, max[axis]));
+        let mut lit = Vec::new();
+        for (axis, normal) in DVec3::AXES.into_iter().enumerate() {
+            lit.extend([Plane::new(normal, -min[axis]), Plane::new(-normal, max[axis])]);
         }
-        if let SceneParams::Cut { planes, .. } = &case.scene {
-            s.extend(planes.iter().map(|p| crate::arbitrary::plane(*p)));
-        }
-        if matches!(case.scene, SceneParams::Lists { .. }) {
-            return None;
-        }
+        lit.extend(cuts);
+        lit.extend_from_slice(&light.planes());
         let extent = DVec3::from(min).abs().max(DVec3::from(max).abs());
-        Some(Self { s, l: light.planes().to_vec(), v: view.planes().to_vec(), light: light.homogeneous().to_array(), extent })
+        Some(Self { view, v: view.planes().to_vec(), lit, light: light.homogeneous().to_array(), extent })
     }
 
-    fn fixed(&self) -> Vec<Plane> {
-        [&self.s[..], &self.l].concat()
+    fn planes(&self) -> Vec<Plane> {
+        [&self.lit[..], &self.v].concat()
     }
-}
 
-#[derive(Default, Debug)]
-pub(crate) struct Tally {
-    n: usize,
-    empty: usize,
-    a_planes: Vec<(f64, usize)>,
-    a_hull: Vec<(f64, usize)>,
-    b: Vec<(f64, usize)>,
-    b_over: Vec<(f64, usize)>,
-    radius: Vec<(f64, usize)>,
-    lost: Vec<usize>,
-    extra: Vec<usize>,
-}
-
-fn compare(tally: &mut Tally, index: usize, computed: &shadowfit::Body, exact: &Body, outer: &[(ExactPlane, f64)], scale: f64) {
-    tally.n += 1;
-    if exact.is_empty() {
-        tally.empty += 1;
+    /// The slack of a plane's value in S.
+    fn slack(&self, plane: &Plane) -> f64 {
+        SLACK * (plane.normal.abs().dot(self.extent) + plane.offset.abs())
     }
-    if computed.is_empty() {
-        if !exact.is_empty() {
-            tally.lost.push(index);
+
+    /// The rounding of a plane's value at the light.
+    fn at_light(&self, plane: &Plane) -> f64 {
+        let [x, y, z, w] = self.light;
+        AT_LIGHT * (plane.normal.abs().dot(DVec3::new(x, y, z).abs()) + plane.offset.abs() * w)
+    }
+
+    /// The half-spaces of S and L, or of all, with what they may be moved outwards by.
+    fn half_spaces(&self, planes: &[Plane]) -> Vec<HalfSpace> {
+        let bound = |plane: &Plane| 2.0 * self.slack(plane) / plane.normal.length();
+        planes.iter().map(|plane| HalfSpace { plane: exact(plane), bound: bound(plane) }).collect()
+    }
+
+    /// The largest β that takes a point of something so large from the origin along with the light into S.
+    fn largest_beta(&self, size: f64) -> f64 {
+        let [x, y, z, w] = self.light;
+        let distance = DVec3::new(x, y, z).length() - size;
+        if w == 0.0 { 2.0 * size } else { (2.0 * size / distance.max(0.0)).min(1.0) }
+    }
+
+    /// δ for hull(V, l).
+    fn displacement_of_view(&self) -> f64 {
+        let depth = self.view.near() + 4.0 * (self.extent.length() + self.view.eye().length());
+        let far = self.view.far().min(depth.max(2.0 * self.view.near()));
+        let corners = self.view.narrowed(self.view.near(), far).ok().and_then(|view| view.corners());
+        let corners = corners.expect("a depth range within the view's own");
+        let beta =
+            self.largest_beta(corners.iter().map(|corner| corner.length()).fold(self.extent.length(), f64::max));
+        let by = |plane: &Plane| 3.0 * self.slack(plane) + beta * self.at_light(plane);
+        displacement(&self.v.iter().map(|plane| (*plane, by(plane))).collect::<Vec<_>>())
+    }
+
+    /// R of planes moved outwards by `times` what the crate may have moved them by when it makes hull(R, l): once in R,
+    /// again in the hull, and as much for the roundings of either.
+    fn grown_visible(&self, times: f64) -> Body {
+        let beta = self.largest_beta(self.extent.length());
+        let moved = |plane: &Plane| {
+            let by = (4.0 + beta * self.light[3]) * self.slack(plane) + beta * self.at_light(plane);
+            exact(&Plane::new(plane.normal, (plane.offset + times * by).next_up()))
+        };
+        Body::from_exact_planes(self.planes().iter().map(moved).collect())
+    }
+
+    /// The half-spaces of hull(R, l); one that holds nothing where R is empty.
+    fn hull_of(&self, visible: &Body) -> Vec<ExactPlane> {
+        if visible.is_empty() {
+            return vec![Homogeneous::from_f64([0.0, 0.0, 0.0, -1.0])];
         }
+        let mut points: Vec<ExactPoint> = visible.vertices.iter().map(|vertex| vertex.point.clone()).collect();
+        points.push(Homogeneous::from_f64(self.light));
+        facets(&points)
+    }
+}
+
+/// A half-space, and how far outside of it a computed vertex may be.
+struct HalfSpace {
+    plane: ExactPlane,
+    bound: f64,
+}
+
+fn exact(plane: &Plane) -> ExactPlane {
+    Homogeneous::from_f64(plane.to_row().to_array())
+}
+
+/// The half-spaces of the hull of points.
+fn facets(points: &[ExactPoint]) -> Vec<ExactPlane> {
+    let has_normal = |plane: &ExactPlane| plane.xyz().iter().any(|component| !component.is_zero());
+    generators(points).into_iter().map(|ray| ray.vector).filter(has_normal).collect()
+}
+
+/// How far outside of a half-space a point is; zero inside.
+fn outside(plane: &ExactPlane, point: &ExactPoint) -> f64 {
+    if plane.side(point) != Ordering::Less {
+        return 0.0;
+    }
+    let [x, y, z] = plane.xyz().map(|component| component.sqr());
+    sqrt_ratio(plane.dot(point).sqr(), point.w().sqr() * (x + y + z))
+}
+
+/// The farthest that a common point of three planes moves when their values change by as much as is given with each.
+fn displacement(planes: &[(Plane, f64)]) -> f64 {
+    let mut farthest: f64 = 0.0;
+    for (i, (a, by_a)) in planes.iter().enumerate() {
+        farthest = farthest.max(by_a / a.normal.length());
+        for (j, (b, by_b)) in planes.iter().enumerate().skip(i + 1) {
+            for (c, by_c) in planes.iter().skip(j + 1) {
+                let [a, b, c] = [a, b, c].map(|plane| plane.normal);
+                let volume = a.dot(b.cross(c)).abs();
+                let sizes = a.length() * b.length() * c.length();
+                // Planes through one line have no common point: a frustum's left, right and near.
+                if volume > 1e-9 * sizes {
+                    let sum = by_a * b.cross(c).length() + by_b * c.cross(a).length() + by_c * a.cross(b).length();
+                    farthest = farthest.max(sum / volume);
+                }
+            }
+        }
+    }
+    farthest
+}
+
+/// What was found for one of the three bodies.
+#[derive(Default)]
+struct Figures {
+    empty: usize,
+    flat: usize,
+    solid: usize,
+    /// Exactly empty, and computed as something within the bound.
+    almost_empty: usize,
+    /// Distances of the farthest computed vertex, in units of the largest coordinates of S.
+    distances: Vec<f64>,
+    /// Of the farthest computed vertex outside a half-space, in units of its bound.
+    used: f64,
+}
+
+impl Figures {
+    fn print(&mut self, name: &str) {
+        let Self { empty, flat, solid, almost_empty, distances, used } = self;
+        distances.sort_by(f64::total_cmp);
+        let at = |part: f64| distances.get((part * distances.len() as f64) as usize).or(distances.last());
+        println!("{name}: {empty} empty ({almost_empty} of them within the bound), {flat} flat, {solid} solid");
+        println!("    nothing lost; at most {used:.3} of the bound used; distances relative to the scene:");
+        println!("    median {:?}, 99 % {:?}, worst {:?}", at(0.5), at(0.99), at(1.0));
+    }
+}
+
+/// Asserts that a computed body holds the exact one and remains within half-spaces.
+fn compare(name: &str, computed: &Computed, exact: &Body, outer: &[HalfSpace], scale: f64, figures: &mut Figures) {
+    let points: Vec<ExactPoint> =
+        computed.vertices().iter().map(|vertex| Homogeneous::from_position(vertex.to_array())).collect();
+
+    for plane in computed.planes() {
+        let violation = exact.violation(plane.to_row().to_array());
+        assert!(violation <= 0.0, "{name}: {violation:e} of the exact body is outside of {plane:?}");
+    }
+    assert!(exact.is_empty() || !computed.is_empty(), "{name}: computed as empty");
+    if !exact.is_empty() {
+        for facet in facets(&points) {
+            for vertex in &exact.vertices {
+                let lost = outside(&facet, &vertex.point);
+                assert!(
+                    lost <= 0.0,
+                    "{name}: an exact vertex is {lost:e} outside of the hull of the computed ones"
+                );
+            }
+        }
+    }
+
+    for HalfSpace { plane, bound } in outer {
+        for (point, vertex) in points.iter().zip(computed.vertices()) {
+            let gained = outside(plane, point);
+            assert!(gained <= *bound, "{name}: {vertex} is {gained:e} outside, more than {bound:e}");
+            figures.used = figures.used.max(if gained > 0.0 { gained / bound } else { 0.0 });
+        }
+    }
+
+    if exact.is_empty() {
+        figures.empty += 1;
+        figures.almost_empty += usize::from(!computed.is_empty());
         return;
     }
-    if exact.is_empty() {
-        tally.extra.push(index);
-    }
-    let points: Vec<_> = computed.vertices().iter().map(|v| Homogeneous::from_position(v.to_array())).collect();
-    if !exact.is_empty() {
-        let worst = computed.planes().map(|p| exact.violation(row(&p))).fold(f64::NEG_INFINITY, f64::max);
-        tally.a_planes.push((worst / scale, index));
-        let facets = hull_of_points(&points);
-        let mut worst = f64::NEG_INFINITY;
-        for facet in &facets {
-            for vertex in &exact.vertices {
-                if facet.side(&vertex.point) == Ordering::Less {
-                    worst = worst.max(outside(facet, &vertex.point));
-                }
-            }
-        }
-        tally.a_hull.push((worst / scale, index));
-        let worst = computed.vertices().iter().map(|v| exact.distance(v.to_array())).fold(0.0, f64::max);
-        tally.b.push((worst / scale, index));
-    }
-    tally.radius.push((outer.iter().map(|x| x.1).fold(0.0, f64::max) / scale, index));
-    let mut worst: f64 = 0.0;
-    for (plane, by) in outer {
-        for point in &points {
-            if plane.side(point) == Ordering::Less {
-                worst = worst.max(outside(plane, point) / by);
-            }
-        }
-    }
-    tally.b_over.push((worst, index));
+    let everywhere = |plane: usize| exact.vertices.iter().all(|vertex| vertex.tight.contains(&plane));
+    let flat = (0..exact.planes.len()).any(everywhere);
+    *if flat { &mut figures.flat } else { &mut figures.solid } += 1;
+    let distance = |vertex: &DVec3| exact.distance(vertex.to_array());
+    figures.distances.push(computed.vertices().iter().map(distance).fold(0.0, f64::max) / scale);
 }
 
-/// How far a meeting point of three of the planes moves when each moves by its `by` (in units of the plane's value).
-fn displacement(planes: &[Plane], by: &[f64]) -> f64 {
-    let mut worst: f64 = 0.0;
-    for (p, b) in planes.iter().zip(by) {
-        worst = worst.max(b / p.normal.length());
+/// Asserts that culling keeps whatever touches a vertex of the exact body.
+fn cull(name: &str, computed: &Computed, exact: &Body) {
+    let culler = computed.culler();
+    let (mut boxes, mut balls) = (Vec::new(), Vec::new());
+    for (index, vertex) in exact.vertices_f64().into_iter().enumerate() {
+        // The rounded vertex is a rounding away from the exact one.
+        let vertex = DVec3::from(vertex);
+        let (min, max) = (vertex.map(f64::next_down), vertex.map(f64::next_up));
+        assert!(computed.meets_box(min, max), "{name}: a box at {vertex} is dropped");
+        boxes.push(Aabb::new(min.as_vec3().map(f32::next_down), max.as_vec3().map(f32::next_up)));
+
+        let arm = DVec3::AXES[index % 3] * [0.0, 1.0, -100.0, 1e-6][index % 4];
+        let radius =
+            |centre: DVec3| (centre.distance(vertex) + f64::EPSILON * vertex.length()) * (1.0 + 4.0 * f64::EPSILON);
+        let centre = vertex + arm;
+        assert!(computed.meets_sphere(centre, radius(centre)), "{name}: a ball that reaches {vertex} is dropped");
+        let centre: Vec3 = centre.as_vec3();
+        balls.push(centre.extend((radius(centre.as_dvec3()) as f32).next_up()));
     }
-    for i in 0..planes.len() {
-        for j in i + 1..planes.len() {
-            for k in j + 1..planes.len() {
-                let [a, b, c] = [i, j, k].map(|x| planes[x].normal);
-                let det = a.dot(b.cross(c)).abs();
-                if det < 1e-9 * a.length() * b.length() * c.length() {
-                    continue;
-                }
-                let sum = by[i] * b.cross(c).length() + by[j] * c.cross(a).length() + by[k] * a.cross(b).length();
-                worst = worst.max(sum / det);
-            }
-        }
-    }
-    worst
+    let mut meets = vec![false; boxes.len()];
+    culler.boxes(&boxes, &mut meets);
+    assert!(meets.iter().all(|&meets| meets), "{name}: of {boxes:?} the bulk keeps {meets:?}");
+    culler.spheres(&balls, &mut meets);
+    assert!(meets.iter().all(|&meets| meets), "{name}: of {balls:?} the bulk keeps {meets:?}");
 }
 
-pub(crate) fn check(tallies: &mut [Tally; 3], index: usize, case: &Case, times: &mut [f64; 4]) {
-    let Some(e) = Exact::of(case) else { return };
+/// Compares the three bodies of a case.
+fn check(case: &Case, figures: &mut [Figures; 3]) {
+    let Some(input) = Input::of(case) else { return };
     let (view, light) = case.build();
     let store = case.scene.store();
-    let scene = store.scene().unwrap();
+    let scene = store.scene().expect("the scene is accepted");
     let focus = Focus::new(&view, &light, &scene);
-    let fixed = e.fixed();
-    let scale = e.extent.length();
-    let unit = |plane: &Plane, by: f64| by / plane.normal.length();
-    let loose = |planes: &[Plane], k: f64| -> Vec<(ExactPlane, f64)> {
-        planes
-            .iter()
-            .map(|p| (Homogeneous::from_f64(row(p)), unit(p, k * SLACK * magnitude(p, e.extent))))
-            .collect()
-    };
-    let all_planes = [&fixed[..], &e.v].concat();
-    let t0 = std::time::Instant::now();
-    let r = Body::from_exact_planes(exact(&all_planes));
-    compare(&mut tallies[0], index, &focus.visible(), &r, &loose(&all_planes, 2.0), scale);
-    times[0] += t0.elapsed().as_secs_f64();
-
-    // Paper.
-    let t0 = std::time::Instant::now();
-    let rows: Vec<_> = e.v.iter().map(row).collect();
-    let facets = hull(&rows, e.light);
-    let h = Body::from_exact_planes([exact(&fixed), facets.clone()].concat());
-    let l = DVec3::from_slice(&e.light[..3]);
-    let w = e.light[3];
-    let far = if view.far().is_finite() { view.far() } else { view.near() + 4.0 * (scale + view.eye().length()) };
-    let reach = view.narrowed(view.near(), far).unwrap().corners().unwrap();
-    let size = 2.0 * reach.iter().map(|c| c.length()).fold(scale, f64::max);
-    let beta = if w == 0.0 { size } else { (size / (l.length() - size).max(0.0)).min(1.0) };
-    let by = |p: &Plane, k: f64| {
-        k * SLACK * magnitude(p, e.extent) + beta * 4.0 * f64::EPSILON * (p.normal.abs().dot(l.abs()) + p.offset.abs() * w)
-    };
-    let bys: Vec<_> = e.v.iter().map(|p| by(p, 2.1)).collect();
-    let radius = displacement(&e.v, &bys);
-    let mut outer = loose(&fixed, 2.0);
-    outer.extend(facets.into_iter().map(|f| (f, radius)));
-    compare(&mut tallies[1], index, &focus.body(Form::Paper), &h, &outer, scale);
-    times[1] += t0.elapsed().as_secs_f64();
-
-    // Tight.
-    let t0 = std::time::Instant::now();
-    let light_point = Homogeneous::from_f64(e.light);
-    let tight = |r: &Body| -> Vec<ExactPlane> {
-        let mut points: Vec<ExactPoint> = r.vertices.iter().map(|v| v.point.clone()).collect();
-        points.push(light_point.clone());
-        hull_of_points(&points)
-    };
-    let h = if r.is_empty() {
-        Body::from_exact_planes(vec![Homogeneous::from_f64([0.0, 0.0, 0.0, -1.0])])
-    } else {
-        Body::from_exact_planes([exact(&fixed), tight(&r)].concat())
-    };
-    times[2] += t0.elapsed().as_secs_f64();
-    let t0 = std::time::Instant::now();
-    let beta = if w == 0.0 { 2.0 * scale } else { (2.0 * scale / (l.length() - 2.0 * scale).max(0.0)).min(1.0) };
-    let by = |p: &Plane| {
-        (4.0 + w * beta) * SLACK * magnitude(p, e.extent)
-            + beta * 4.0 * f64::EPSILON * (p.normal.abs().dot(l.abs()) + p.offset.abs() * w)
-    };
-    let grown = |k: f64| -> Body {
-        let planes: Vec<_> = all_planes.iter().map(|p| moved(p, k * by(p))).collect();
-        Body::from_exact_planes(exact(&planes))
-    };
-    let r1 = grown(1.0);
-    let outer = if r1.is_empty() {
-        vec![(Homogeneous::from_f64([0.0, 0.0, 0.0, -1.0]), 0.0)]
-    } else {
-        let r2 = grown(2.0);
-        let radius = 2.0 * r2.vertices_f64().into_iter().map(|v| r1.distance(v)).fold(0.0, f64::max);
-        let mut outer = loose(&fixed, 2.0);
-        outer.extend(tight(&r1).into_iter().map(|f| (f, radius)));
+    let scale = input.extent.length();
+    let lit: Vec<ExactPlane> = input.lit.iter().map(exact).collect();
+    let cut = |hull: &[ExactPlane]| Body::from_exact_planes([&lit[..], hull].concat());
+    let bounded = |hull: Vec<ExactPlane>, bound: f64| {
+        let mut outer = input.half_spaces(&input.lit);
+        outer.extend(hull.into_iter().map(|plane| HalfSpace { plane, bound }));
         outer
     };
-    compare(&mut tallies[2], index, &focus.body(Form::Tight), &h, &outer, scale);
-    times[3] += t0.elapsed().as_secs_f64();
+    let [of_visible, of_paper, of_tight] = figures;
+
+    let planes = input.planes();
+    let visible = Body::from_exact_planes(planes.iter().map(exact).collect());
+    compare("R", &focus.visible(), &visible, &input.half_spaces(&planes), scale, of_visible);
+
+    let v: Vec<[f64; 4]> = input.v.iter().map(|plane| plane.to_row().to_array()).collect();
+    let facets = hull(&v, input.light);
+    let (paper, computed) = (cut(&facets), focus.body(Form::Paper));
+    compare("paper", &computed, &paper, &bounded(facets, input.displacement_of_view()), scale, of_paper);
+    cull("paper", &computed, &paper);
+
+    let (tight, computed) = (cut(&input.hull_of(&visible)), focus.body(Form::Tight));
+    let grown = input.grown_visible(1.0);
+    let more = input.grown_visible(2.0).vertices_f64().into_iter().map(|vertex| grown.distance(vertex));
+    let bound = if grown.is_empty() { 0.0 } else { 2.0 * more.fold(0.0, f64::max) };
+    compare("tight", &computed, &tight, &bounded(input.hull_of(&grown), bound), scale, of_tight);
+    cull("tight", &computed, &tight);
 }
 
 #[test]
-fn survey() {
-    let cases: usize = std::env::var("SHADOWFIT_CASES").ok().and_then(|v| v.parse().ok()).unwrap_or(2000);
-    let seed: u8 = std::env::var("SEED").ok().and_then(|v| v.parse().ok()).unwrap_or(7);
-    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]);
-    let mut runner = TestRunner::new_with_rng(Config::default(), rng);
-    let strategy = case();
-    let mut tallies: [Tally; 3] = Default::default();
-    let mut all = Vec::new();
-    let mut times = [0.0; 4];
-    let mut refused = 0;
-    for index in 0..cases {
-        let Ok(tree) = strategy.new_tree(&mut runner) else { refused += 1; continue };
-        let case = tree.current();
-        let shown = format!("{case:?}");
-        all.push(case.clone());
-        let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| check(&mut tallies, index, &case, &mut times)));
-        if result.is_err() {
-            println!("PANIC {shown}");
+fn bodies_hold_the_exact_ones_and_little_more() {
+    let figures = RefCell::<[Figures; 3]>::default();
+    run(2000, &case(), |case| check(&case, &mut figures.borrow_mut()));
+    for (figures, name) in figures.borrow_mut().iter_mut().zip(["R", "paper", "tight"]) {
+        figures.print(name);
+    }
+}
+
+/// A camera at the origin that looks along −z.
+fn camera(fov_y: f64, near: f64, far: Option<f64>) -> ViewParams {
+    let pose = Pose { eye: [0.0; 3], forward: [0.0, 0.0, -1.0], up: [0.0, 1.0, 0.0] };
+    ViewParams::Perspective { pose, fov_y, aspect: 1.0, near, far }
+}
+
+fn check_one(view: ViewParams, light: LightParams, scene: SceneParams) {
+    check(&Case { view, light, scene }, &mut Default::default());
+}
+
+/// The planes of an infinite view meet behind the eye too, and what lies between that and the lamp is in no hull.
+#[test]
+fn lamp_beside_an_infinite_view() {
+    let light = LightParams::Point { position: [5.0, 0.0, -2.0], near: 0.1, range: None };
+    let scene = SceneParams::Bounds { min: [9.0, -1.0, -5.0], max: [11.0, 1.0, -3.0] };
+    check_one(camera(std::f64::consts::FRAC_PI_2, 1.0, None), light, scene);
+}
+
+/// The values of planes at such a lamp are too small for products of them.
+#[test]
+fn lamp_at_subnormal_numbers() {
+    let steps = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|steps| steps * f64::from_bits(1));
+    for x in steps {
+        for y in steps {
+            let light = LightParams::Point { position: [x, y, -f64::from_bits(1)], near: 0.1, range: None };
+            let scene = SceneParams::Bounds { min: [-50.0, -10.0, -35.0], max: [50.0, 13.0, 34.0] };
+            check_one(camera(1.0, 0.02, Some(4000.0)), light, scene.clone());
+            check_one(camera(1.0, 0.02, None), light, scene);
         }
     }
-    println!("times {times:?} refused {refused}");
-    for (name, t) in ["R", "paper", "tight"].iter().zip(&mut tallies) {
-        println!("== {name}: n {} empty {} lost {:?} extra {:?}", t.n, t.empty, t.lost, t.extra.len());
-        for (what, list) in [("a planes", &mut t.a_planes), ("a hull", &mut t.a_hull), ("b dist", &mut t.b), ("b over", &mut t.b_over), ("radius", &mut t.radius)] {
-            list.sort_by(|a, b| b.0.total_cmp(&a.0));
-            let bad = list.iter().filter(|x| x.0 > if what.len() == 6 { 1.0 } else { 0.0 }).count();
-            let q = |p: f64| list.get((list.len() as f64 * p) as usize).map(|x| x.0);
-            println!("  {what}: bad {bad}/{} 1% {:?} 10% {:?} median {:?} top {:?}", list.len(), q(0.01), q(0.1), q(0.5), &list[..list.len().min(12)]);
-        }
-    }
-    if let Ok(show) = std::env::var("SHOW") {
-        for i in show.split(',') {
-            let i: usize = i.parse().unwrap();
-            println!("#{i} {:#?}", all[i]);
-        }
-    }
+}
+
+/// Planes through both the eye and the lamp have no part along the one axis that the scene has any extent along, and so
+/// no slack of their own.
+#[test]
+fn scene_that_is_a_point_at_the_lamp() {
+    let pose = Pose {
+        eye: [0.0; 3],
+        forward: [-0.416_388_913_493_760_9, 0.507_535_177_632_769_7, 0.754_339_655_715_353_7],
+        up: [0.001_012_522_015_507_787_2, 0.954_184_007_463_004_7, -0.019_996_740_409_829_402],
+    };
+    let (fov_y, aspect) = (1.067_813_520_479_684_8, 0.994_440_932_905_400_1);
+    let view = ViewParams::Perspective { pose, fov_y, aspect, near: 0.477, far: Some(5.787) };
+    let lamp = [0.0, 5.333_275_472_640_323, 0.0];
+    let light = LightParams::Point { position: lamp, near: 3e-4, range: None };
+    check_one(view, light, SceneParams::Bounds { min: lamp, max: lamp });
 }

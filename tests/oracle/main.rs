@@ -11,6 +11,9 @@
 //! - `cone`: the generators of an intersection of half-spaces, by brute force.
 //! - `hull`, `body`: the half-spaces of conv(V ∪ {l}), and the vertices of a body.
 //! - `distance`, `margin`: how far a point is from a body, and a body from being empty.
+//! - `focus`: the crate's bodies against the exact ones.
+
+#![allow(clippy::disallowed_methods, reason = "lengths measure what a fit left out, they are no part of one")]
 
 #[path = "../arbitrary/mod.rs"]
 mod arbitrary;

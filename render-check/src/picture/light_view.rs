@@ -22,8 +22,8 @@ const MARGIN: f64 = 1.12;
 /// beside the focus body alone.
 const MOST_SHRINKING: f64 = 1.7;
 
-/// The widest a lamp's picture opens to either side, as a tangent: 75 degrees.
-const WIDEST_SLOPE: f64 = 3.732;
+/// The widest a lamp's picture opens upwards and downwards, as a tangent: 70 degrees to either side.
+const WIDEST_SLOPE: f64 = 2.747;
 
 /// How bright what lies outside the focus body is, beside what lies inside.
 const OUTSIDE_BRIGHTNESS: f32 = 0.3;
@@ -37,7 +37,6 @@ const OUTSIDE_BRIGHTNESS: f32 = 0.3;
 pub fn light_lens(light: &LightSpec, view: &View, body: &Body, mesh: &Mesh, aspect: f64) -> Result<Lens> {
     let (min, max) = mesh.bounds();
     let subject = if body.is_empty() { vec![min, max] } else { body.vertices().to_vec() };
-    let centre = subject.iter().sum::<DVec3>() / subject.len() as f64;
     let axes_towards = |forward: DVec3| {
         let up = view.forward().reject_from_normalized(forward).try_normalize();
         let up = up.unwrap_or_else(|| {
@@ -51,24 +50,39 @@ pub fn light_lens(light: &LightSpec, view: &View, body: &Body, mesh: &Mesh, aspe
             parallel_lens(axes, view, &subject, [min, max], aspect)
         }
         LightSpec::Point { position, .. } | LightSpec::Spot { position, .. } => {
-            let towards = match *light {
-                LightSpec::Spot { target, .. } => target,
-                _ => centre,
+            let forward = match *light {
+                LightSpec::Spot { target, .. } => target - position,
+                _ => middle_direction(position, &subject),
             };
-            let axes = axes_towards((towards - position).normalize_or(DVec3::NEG_Y));
+            let axes = axes_towards(forward.normalize_or(DVec3::NEG_Y));
             // The widest slope to any point of the body; behind the light or beside it, as wide as can be.
             let slope = |axis: DVec3, p: DVec3| {
                 let depth = axes[2].dot(p - position);
                 if depth > 0.0 { (axis.dot(p - position) / depth).abs() } else { f64::INFINITY }
             };
             let widest = |axis: DVec3| subject.iter().map(|&p| slope(axis, p)).fold(0.0, f64::max);
-            let vertical = (MARGIN * widest(axes[1]).max(widest(axes[0]) / aspect))
-                .clamp(0.05, WIDEST_SLOPE / aspect.max(1.0));
+            let vertical = (MARGIN * widest(axes[1]).max(widest(axes[0]) / aspect)).clamp(0.05, WIDEST_SLOPE);
             let far =
                 1.01 * corners(min, max).iter().chain(&subject).map(|p| p.distance(position)).fold(0.0, f64::max);
             Lens::perspective(position, axes, DVec2::new(vertical * aspect, vertical), [1e-3 * far, far])
         }
     }
+}
+
+/// The middle of the narrowest cone about all points, as seen from a position: the centre of the smallest ball about
+/// their directions, by Bădoiu and Clarkson's steps towards whichever is farthest off, shorter each time. Points all
+/// around leave no such cone; then it is the direction to the middle of the points.
+fn middle_direction(position: DVec3, points: &[DVec3]) -> DVec3 {
+    let directions: Vec<DVec3> = points.iter().map(|&p| (p - position).normalize_or_zero()).collect();
+    let mut middle = directions.iter().sum::<DVec3>() / directions.len() as f64;
+    for step in 1..=100 {
+        let off = |direction: &&DVec3| direction.distance_squared(middle);
+        if let Some(&farthest) = directions.iter().max_by(|a, b| off(a).total_cmp(&off(b))) {
+            middle = middle.lerp(farthest, 1.0 / f64::from(step + 1));
+        }
+    }
+    let is_wide = directions.iter().any(|direction| direction.dot(middle.normalize_or_zero()) < 0.2);
+    if is_wide { points.iter().sum::<DVec3>() / points.len() as f64 - position } else { middle }
 }
 
 fn parallel_lens(

@@ -175,7 +175,7 @@ pub(super) fn make() -> LoadedScene {
         }),
         lights: vec![
             LightSpec::Sun { direction_to_light: DVec3::new(-0.8, 0.6, 0.2) },
-            LightSpec::Point { position: DVec3::new(-1.6, 5.5, -7.0), range: f64::INFINITY },
+            LightSpec::Point { position: DVec3::new(-1.6, 7.0, -8.0), range: f64::INFINITY },
             LightSpec::Spot {
                 position: DVec3::new(6.0, 6.0, -1.0),
                 target: DVec3::new(0.0, 0.0, -5.0),

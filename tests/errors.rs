@@ -1,0 +1,385 @@
+//! HARD_CASES row 36: what cannot be fitted is refused at the door, with the name of the field; never a panic, a hang or
+//! a NaN in a result.
+
+use shadowfit::glam::{DMat4, DVec3, DVec4, Vec3};
+use shadowfit::{
+    Aabb, ClipSpace, ConvexScene, InputError, Light, MAX_COORDINATE, MIN_DISTANCE, Outcome, Plane, Problem, Scene,
+    Settings, View, fit,
+};
+
+const NAN: f64 = f64::NAN;
+const INFINITY: f64 = f64::INFINITY;
+/// The smallest denormal number.
+const DENORMAL: f64 = 5e-324;
+const EYE: DVec3 = DVec3::new(1.0, 2.0, 3.0);
+
+/// Refused, for this field and for this reason.
+#[track_caller]
+fn refused<T: core::fmt::Debug>(result: Result<T, InputError>, field: &str, problem: Problem) {
+    let error = result.expect_err("accepted");
+    assert_eq!((error.field, error.problem), (field, problem));
+    assert_eq!(error.to_string(), format!("{field} {problem}"));
+}
+
+/// What is wrong with a vector that has one of these in any place, and with a number that is one of these.
+const NOT_FINITE: [f64; 3] = [NAN, INFINITY, -INFINITY];
+
+/// A vector with one component replaced.
+fn with(vector: DVec3, axis: usize, value: f64) -> DVec3 {
+    let mut vector = vector;
+    vector[axis] = value;
+    vector
+}
+
+#[test]
+fn points_of_views_and_lights() {
+    for axis in 0..3 {
+        for (value, problem) in
+            NOT_FINITE.map(|value| (value, Problem::NotFinite)).into_iter().chain([(-1e13, Problem::TooLarge)])
+        {
+            let point = with(EYE, axis, value);
+            refused(View::perspective(point, DVec3::X, DVec3::Y, 1.0, 1.0, 0.1, 9.0), "eye", problem);
+            refused(View::orthographic(point, DVec3::X, DVec3::Y, 1.0, 1.0, 0.1, 9.0), "eye", problem);
+            refused(Light::point(point, 0.1, 9.0), "position", problem);
+            refused(Light::spot(point, DVec3::X, 1.0, 0.1, 9.0), "position", problem);
+            refused(Light::hemisphere(point, DVec3::X, 0.1, 9.0), "position", problem);
+        }
+        assert!(Light::point(with(EYE, axis, DENORMAL), 0.1, 9.0).is_ok());
+        assert!(Light::point(with(EYE, axis, -MAX_COORDINATE), 0.1, 9.0).is_ok());
+    }
+}
+
+#[test]
+fn directions() {
+    type Make = fn(DVec3) -> Option<InputError>;
+    let doors: [(&str, Make); 7] = [
+        ("forward", |v| View::perspective(EYE, v, DVec3::Y, 1.0, 1.0, 0.1, 9.0).err()),
+        ("up", |v| View::perspective(EYE, DVec3::X, v, 1.0, 1.0, 0.1, 9.0).err()),
+        ("forward", |v| View::orthographic(EYE, v, DVec3::Y, 1.0, 1.0, 0.1, 9.0).err()),
+        ("up", |v| View::orthographic(EYE, DVec3::X, v, 1.0, 1.0, 0.1, 9.0).err()),
+        ("direction_to_light", |v| Light::directional(v).err()),
+        ("axis", |v| Light::spot(EYE, v, 1.0, 0.1, 9.0).err()),
+        ("axis", |v| Light::hemisphere(EYE, v, 0.1, 9.0).err()),
+    ];
+    for (field, make) in doors {
+        for axis in 0..3 {
+            for value in NOT_FINITE {
+                assert_eq!(
+                    make(with(DVec3::Z, axis, value)),
+                    Some(InputError { field, problem: Problem::NotFinite })
+                );
+            }
+        }
+        for zero in [DVec3::ZERO, -DVec3::ZERO] {
+            assert_eq!(make(zero), Some(InputError { field, problem: Problem::NoDirection }));
+        }
+        // A direction's length does not matter, however small or large.
+        for length in [DENORMAL, 1e-200, 1e-20, 1e20, 1e200, f64::MAX] {
+            assert_eq!(make(DVec3::Z * length), None, "{field} of length {length:e}");
+        }
+    }
+}
+
+#[test]
+fn directions_that_must_span_a_plane() {
+    for (forward, up) in [(DVec3::Y, DVec3::Y), (DVec3::Y, DVec3::NEG_Y * 3.0), (EYE, EYE * -1e-9)] {
+        refused(View::perspective(EYE, forward, up, 1.0, 1.0, 0.1, 9.0), "up", Problem::Parallel);
+        refused(View::orthographic(EYE, forward, up, 1.0, 1.0, 0.1, 9.0), "up", Problem::Parallel);
+    }
+}
+
+#[test]
+fn angles() {
+    use core::f64::consts::{FRAC_PI_2, PI};
+    for angle in [NAN, INFINITY, -INFINITY, 0.0, -0.0, -1.0, PI, 4.0] {
+        let view = View::perspective(EYE, DVec3::X, DVec3::Y, angle, 1.0, 0.1, 9.0);
+        refused(view, "fov_y", Problem::AngleOutOfRange);
+    }
+    for angle in [NAN, INFINITY, -INFINITY, 0.0, -0.0, -1.0, DENORMAL, FRAC_PI_2, 2.0] {
+        refused(Light::spot(EYE, DVec3::X, angle, 0.1, 9.0), "half_angle", Problem::AngleOutOfRange);
+    }
+    // An angle in its range may have a tangent that is not.
+    refused(View::perspective(EYE, DVec3::X, DVec3::Y, DENORMAL, 1.0, 0.1, 9.0), "fov_y", Problem::TooSmall);
+    refused(View::perspective(EYE, DVec3::X, DVec3::Y, PI.next_down(), 1.0, 0.1, 9.0), "fov_y", Problem::TooLarge);
+}
+
+/// Distances and factors that must be positive, finite, and neither tiny nor huge.
+#[test]
+fn distances() {
+    let bad = [
+        (NAN, Problem::NotFinite),
+        (INFINITY, Problem::NotFinite),
+        (-INFINITY, Problem::NotFinite),
+        (0.0, Problem::TooSmall),
+        (-0.0, Problem::TooSmall),
+        (-1.0, Problem::TooSmall),
+        (DENORMAL, Problem::TooSmall),
+        (MIN_DISTANCE.next_down(), Problem::TooSmall),
+        (MAX_COORDINATE.next_up(), Problem::TooLarge),
+        (f64::MAX, Problem::TooLarge),
+    ];
+    type Make = fn(f64) -> Option<InputError>;
+    let doors: [(&str, Make); 7] = [
+        ("aspect", |x| View::perspective(EYE, DVec3::X, DVec3::Y, 1.0, x, 0.1, 9.0).err()),
+        ("near", |x| View::perspective(EYE, DVec3::X, DVec3::Y, 1.0, 1.0, x, INFINITY).err()),
+        ("half_height", |x| View::orthographic(EYE, DVec3::X, DVec3::Y, x, 1.0, 0.1, 9.0).err()),
+        ("aspect", |x| View::orthographic(EYE, DVec3::X, DVec3::Y, 1.0, x, 0.1, 9.0).err()),
+        ("near", |x| Light::point(EYE, x, INFINITY).err()),
+        ("near", |x| Light::spot(EYE, DVec3::X, 1.0, x, INFINITY).err()),
+        ("near", |x| Light::hemisphere(EYE, DVec3::X, x, INFINITY).err()),
+    ];
+    for (field, make) in doors {
+        for (value, problem) in bad {
+            // A −1 for near is no more than a small one: it says so, not that it is out of order.
+            assert_eq!(make(value), Some(InputError { field, problem }), "{field} = {value}");
+        }
+        assert_eq!(make(1.0), None);
+    }
+    // Those that may be infinite.
+    type Far = fn(f64) -> Option<InputError>;
+    let doors: [(&str, Far); 4] = [
+        ("far", |x| View::perspective(EYE, DVec3::X, DVec3::Y, 1.0, 1.0, 0.1, x).err()),
+        ("range", |x| Light::point(EYE, 0.1, x).err()),
+        ("range", |x| Light::spot(EYE, DVec3::X, 1.0, 0.1, x).err()),
+        ("range", |x| Light::hemisphere(EYE, DVec3::X, 0.1, x).err()),
+    ];
+    for (field, make) in doors {
+        for (value, problem) in bad {
+            let expected = (value != INFINITY).then_some(InputError { field, problem });
+            assert_eq!(make(value), expected, "{field} = {value}");
+        }
+        for value in [0.1, 0.05] {
+            assert_eq!(make(value), Some(InputError { field, problem: Problem::OutOfOrder }), "{field} = {value}");
+        }
+    }
+}
+
+#[test]
+fn depths_of_orthographic_views() {
+    let view = |near, far| View::orthographic(EYE, DVec3::X, DVec3::Y, 1.0, 1.0, near, far);
+    for value in NOT_FINITE {
+        refused(view(value, 9.0), "near", Problem::NotFinite);
+        refused(view(0.1, value), "far", Problem::NotFinite);
+    }
+    refused(view(-1e13, 9.0), "near", Problem::TooLarge);
+    refused(view(0.1, 1e13), "far", Problem::TooLarge);
+    refused(view(2.0, 2.0), "far", Problem::OutOfOrder);
+    refused(view(2.0, 1.0), "far", Problem::OutOfOrder);
+    assert!(view(-5.0, -0.0).is_ok());
+}
+
+#[test]
+fn narrowed_views() {
+    let view = View::perspective(EYE, DVec3::X, DVec3::Y, 1.0, 1.0, 1.0, 9.0).unwrap();
+    for value in [NAN, INFINITY] {
+        refused(view.narrowed(value, 9.0), "near", Problem::NotFinite);
+    }
+    refused(view.narrowed(-INFINITY, 9.0), "near", Problem::TooSmall);
+    refused(view.narrowed(0.5, 9.0), "near", Problem::TooSmall);
+    refused(view.narrowed(1.0, NAN), "far", Problem::NotFinite);
+    refused(view.narrowed(1.0, INFINITY), "far", Problem::TooLarge);
+    refused(view.narrowed(1.0, 9.5), "far", Problem::TooLarge);
+    refused(view.narrowed(3.0, 3.0), "far", Problem::OutOfOrder);
+    assert_eq!(view.narrowed(1.0, 9.0).unwrap(), view);
+}
+
+/// A view matrix that is fine, and a projection that is, right-handed with depth from 0 to 1.
+fn matrices() -> (DMat4, DMat4) {
+    let (near, far) = (0.5, 50.0);
+    let clip_from_eye = DMat4::from_cols(
+        DVec4::new(1.0, 0.0, 0.0, 0.0),
+        DVec4::new(0.0, 1.5, 0.0, 0.0),
+        DVec4::new(0.0, 0.0, -far / (far - near), -1.0),
+        DVec4::new(0.0, 0.0, -near * far / (far - near), 0.0),
+    );
+    (DMat4::from_rotation_y(0.7) * DMat4::from_translation(-EYE), clip_from_eye)
+}
+
+#[test]
+fn every_entry_of_a_matrix_must_be_finite() {
+    let (eye_from_world, clip_from_eye) = matrices();
+    assert!(View::from_matrices(eye_from_world, clip_from_eye, ClipSpace::WGPU).is_ok());
+    for (column, row) in (0..16).map(|entry| (entry / 4, entry % 4)) {
+        for value in NOT_FINITE {
+            let put = |mut matrix: DMat4| {
+                matrix.col_mut(column)[row] = value;
+                matrix
+            };
+            let view = View::from_matrices(put(eye_from_world), clip_from_eye, ClipSpace::WGPU);
+            refused(view, "eye_from_world", Problem::NotFinite);
+            let view = View::from_matrices(eye_from_world, put(clip_from_eye), ClipSpace::WGPU);
+            refused(view, "clip_from_eye", Problem::NotFinite);
+        }
+    }
+}
+
+#[test]
+fn matrices_that_are_no_cameras() {
+    let (eye_from_world, clip_from_eye) = matrices();
+    let view = |matrix: DMat4| View::from_matrices(matrix, clip_from_eye, ClipSpace::WGPU);
+    for matrix in [
+        DMat4::ZERO,
+        DMat4::from_scale(DVec3::new(1.0, 1.0, 0.0)) * eye_from_world,
+        DMat4::from_scale(DVec3::new(1.0, 2.0, 1.0)) * eye_from_world,
+        DMat4::from_cols(DVec4::X, DVec4::new(0.5, 1.0, 0.0, 0.0), DVec4::Z, DVec4::W),
+        clip_from_eye,
+    ] {
+        refused(view(matrix), "eye_from_world", Problem::NotRigid);
+    }
+    let projection = |matrix: DMat4| View::from_matrices(eye_from_world, matrix, ClipSpace::WGPU);
+    let mut oblique = clip_from_eye;
+    oblique.x_axis.z = 0.2;
+    let mut sheared = clip_from_eye;
+    sheared.y_axis.x = 0.2;
+    let mut mixed = clip_from_eye;
+    mixed.w_axis.w = 1.0;
+    for matrix in [DMat4::ZERO, oblique, sheared, mixed, clip_from_eye * DMat4::from_rotation_x(0.3)] {
+        refused(projection(matrix), "clip_from_eye", Problem::NotAProjection);
+    }
+}
+
+/// A projection without an image, or without any depth, is refused as what it is, not with a NaN.
+#[test]
+fn singular_projections() {
+    let (eye_from_world, clip_from_eye) = matrices();
+    let projection = |matrix: DMat4| View::from_matrices(eye_from_world, matrix, ClipSpace::WGPU);
+    for row in 0..2 {
+        let mut matrix = clip_from_eye.transpose();
+        *matrix.col_mut(row) = DVec4::ZERO;
+        assert_eq!(projection(matrix.transpose()).unwrap_err().field, "frame");
+    }
+    let mut matrix = clip_from_eye.transpose();
+    matrix.z_axis = DVec4::ZERO;
+    assert!(["near", "far"].contains(&projection(matrix.transpose()).unwrap_err().field));
+    // Orthographic, with no depth at all.
+    let flat = DMat4::from_scale(DVec3::new(1.0, 1.0, 0.0));
+    assert!(["near", "far"].contains(&projection(flat).unwrap_err().field));
+}
+
+/// Reversed depth read as forward depth, and the other way round: near and far change places.
+#[test]
+fn projections_read_in_the_wrong_convention() {
+    let (eye_from_world, clip_from_eye) = matrices();
+    let clip = ClipSpace::WGPU.reversed();
+    refused(View::from_matrices(eye_from_world, clip_from_eye, clip), "far", Problem::OutOfOrder);
+    // An infinite far plane, reversed, has its near plane at infinity when read as forward.
+    let mut infinite = clip_from_eye;
+    (infinite.z_axis.z, infinite.w_axis.z) = (0.0, 0.5);
+    assert!(View::from_matrices(eye_from_world, infinite, clip).is_ok());
+    let error = View::from_matrices(eye_from_world, infinite, ClipSpace::WGPU).unwrap_err();
+    assert_eq!(error.field, "near");
+}
+
+#[test]
+fn boxes_of_scenes() {
+    let (min, max) = (DVec3::splat(-1.0), DVec3::splat(1.0));
+    for axis in 0..3 {
+        for value in NOT_FINITE {
+            refused(Scene::from_box(with(min, axis, value), max), "min", Problem::NotFinite);
+            refused(Scene::from_box(min, with(max, axis, value)), "max", Problem::NotFinite);
+            refused(ConvexScene::new(with(min, axis, value), max, &[]), "min", Problem::NotFinite);
+        }
+        refused(Scene::from_box(with(min, axis, -1e13), max), "min", Problem::TooLarge);
+        refused(Scene::from_box(min, with(max, axis, 1e13)), "max", Problem::TooLarge);
+        refused(Scene::from_box(with(min, axis, 1.5), max), "max", Problem::OutOfOrder);
+        refused(ConvexScene::new(with(min, axis, 1.5), max, &[]), "max", Problem::OutOfOrder);
+        assert!(Scene::from_box(with(min, axis, 1.0), max).is_ok(), "flat");
+    }
+    assert!(Scene::from_box(max, max).is_ok(), "a point");
+}
+
+#[test]
+fn lists_of_scenes() {
+    let fine = [Aabb::new(Vec3::splat(-1.0), Vec3::splat(1.0))];
+    refused(Scene::new(&[], &fine), "casters", Problem::Empty);
+    refused(Scene::new(&fine, &[]), "receivers", Problem::Empty);
+    refused(Scene::new(&[], &[]), "casters", Problem::Empty);
+    for (value, problem) in [
+        (f32::NAN, Problem::NotFinite),
+        (f32::INFINITY, Problem::NotFinite),
+        (f32::NEG_INFINITY, Problem::NotFinite),
+        (1e13, Problem::TooLarge),
+        (-2.0, Problem::OutOfOrder),
+    ] {
+        let bad = [fine[0], Aabb::new(fine[0].min, Vec3::new(1.0, value, 1.0)), fine[0]];
+        refused(Scene::new(&bad, &fine), "casters", problem);
+        refused(Scene::new(&fine, &bad), "receivers", problem);
+    }
+}
+
+#[test]
+fn planes_of_convex_scenes() {
+    let scene = |planes: &[Plane]| ConvexScene::new(DVec3::splat(-1.0), DVec3::splat(1.0), planes);
+    for value in NOT_FINITE {
+        refused(scene(&[Plane::new(DVec3::X, value)]), "planes", Problem::NotFinite);
+        for axis in 0..3 {
+            refused(scene(&[Plane::new(with(DVec3::X, axis, value), 0.0)]), "planes", Problem::NotFinite);
+        }
+    }
+    refused(scene(&[Plane::new(DVec3::ZERO, 1.0)]), "planes", Problem::NoDirection);
+    refused(scene(&[Plane::new(DVec3::X, -2.0)]), "planes", Problem::Empty);
+    refused(scene(&[Plane::new(DVec3::X, 0.0); ConvexScene::MAX_CUTS + 1]), "planes", Problem::TooMany);
+    assert!(scene(&[Plane::new(DVec3::X, 0.0); ConvexScene::MAX_CUTS]).is_ok());
+    refused(ConvexScene::around([]), "points", Problem::Empty);
+    for value in NOT_FINITE {
+        refused(ConvexScene::around([DVec3::ZERO, with(DVec3::ONE, 1, value)]), "points", Problem::NotFinite);
+    }
+    refused(ConvexScene::around([DVec3::splat(1e13)]), "points", Problem::TooLarge);
+}
+
+/// Planes may be of any length that a direction may be of.
+#[test]
+fn planes_of_any_length() {
+    for length in [DENORMAL, 1e-300, 1e-200, 1e200, 1e300] {
+        let cut = [Plane::new(DVec3::X * length, 0.0)];
+        match ConvexScene::new(DVec3::splat(-1.0), DVec3::splat(1.0), &cut) {
+            Ok(scene) => {
+                let view = View::orthographic(EYE, DVec3::NEG_Z, DVec3::Y, 9.0, 1.0, -9.0, 9.0).unwrap();
+                let light = Light::directional(DVec3::Y).unwrap();
+                let settings = Settings::default();
+                let Outcome::Map(map) = fit(&view, &light, &Scene::from_convex(&scene), &settings) else {
+                    panic!("no map");
+                };
+                assert!(map.matrix().is_finite());
+            }
+            Err(error) => assert_eq!(error.field, "planes"),
+        }
+    }
+}
+
+#[test]
+fn sizes_of_settings() {
+    for (size, problem) in [
+        (0, Problem::TooSmall),
+        (3, Problem::TooSmall),
+        (Settings::MAX_SIZE + 1, Problem::TooLarge),
+        (u32::MAX, Problem::TooLarge),
+    ] {
+        refused(Settings::new(size, 1080), "map_size", problem);
+        refused(Settings::new(2048, size), "image_height", problem);
+    }
+    let settings = Settings::new(16, 4).unwrap();
+    refused(settings.with_border(5), "border", Problem::TooLarge);
+    refused(settings.with_border(u32::MAX), "border", Problem::TooLarge);
+    assert_eq!(settings.with_border(4).unwrap().border(), 4);
+}
+
+/// The messages, as someone reads them in a log.
+#[test]
+fn messages_are_sentences() {
+    let messages = [
+        View::perspective(EYE, DVec3::X, DVec3::Y, 1.0, 1.0, 9.0, 0.1).unwrap_err(),
+        View::perspective(EYE, DVec3::X, DVec3::X, 1.0, 1.0, 0.1, 9.0).unwrap_err(),
+        View::from_matrices(DMat4::ZERO, DMat4::IDENTITY, ClipSpace::WGPU).unwrap_err(),
+        View::from_matrices(DMat4::IDENTITY, DMat4::ZERO, ClipSpace::WGPU).unwrap_err(),
+        Light::directional(DVec3::ZERO).unwrap_err(),
+        Light::spot(EYE, DVec3::X, 2.0, 0.1, 9.0).unwrap_err(),
+        Light::point(EYE, 0.0, 9.0).unwrap_err(),
+        Light::point(EYE, NAN, 9.0).unwrap_err(),
+        Scene::new(&[], &[]).unwrap_err(),
+        ConvexScene::new(DVec3::ZERO, DVec3::ONE, &[Plane::ONE; 99]).unwrap_err(),
+        Settings::default().with_border(4000).unwrap_err(),
+    ];
+    let text = messages.map(|message| message.to_string()).join("\n");
+    insta::assert_snapshot!(text);
+}

@@ -1,0 +1,159 @@
+//! Views, lights, settings and results that are stored and read again.
+
+#![cfg(feature = "serde")]
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Value, from_str, from_value, json, to_string, to_value};
+use shadowfit::glam::{DMat4, DVec3, DVec4, Vec3};
+use shadowfit::{
+    Aabb, ClipSpace, DepthFormat, DepthResolution, DepthSpan, Empty, Focus, Footprint, Form, Light, LightClass,
+    NearCase, Origin, Outcome, Plane, Scene, Settings, Shift, Surrounded, View, VirtualCamera, Warp, Window,
+    classify,
+};
+
+#[track_caller]
+fn comes_back<T: Serialize + DeserializeOwned + PartialEq + core::fmt::Debug>(value: T) {
+    let text = to_string(&value).unwrap();
+    assert_eq!(from_str::<T>(&text).unwrap(), value, "{text}");
+}
+
+/// Refused, with this in the message, after one place in the stored form is replaced.
+#[track_caller]
+fn tampered<T: Serialize + DeserializeOwned + core::fmt::Debug>(
+    value: &T,
+    place: &str,
+    with: Value,
+    message: &str,
+) {
+    let mut stored = to_value(value).unwrap();
+    *stored.pointer_mut(place).expect(place) = with;
+    let error = from_value::<T>(stored).expect_err("accepted").to_string();
+    assert!(error.contains(message), "{error}");
+}
+
+/// Numbers that no decimal fraction is equal to, and axes that rounding has been at.
+fn view(far: f64) -> View {
+    View::perspective((0.1, 1.7, -3.3), (0.3, -0.21, -1.0), DVec3::Y, 1.0, 1.6, 0.1, far).unwrap()
+}
+
+fn spot() -> Light {
+    Light::spot((0.1, 5.0, -9.7), (0.3, -1.0, 0.2), 0.7, 0.05, 33.3).unwrap()
+}
+
+#[test]
+fn views() {
+    comes_back(view(500.0));
+    comes_back(view(f64::INFINITY));
+    comes_back(View::orthographic(DVec3::ONE, DVec3::X, DVec3::Y, 5.0, 1.3, -4.0, 1.0 / 3.0).unwrap());
+    // Mirrored, and off the axis.
+    let mut clip_from_eye = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::NEG_W, DVec4::Z * 0.1);
+    clip_from_eye.z_axis.x = 0.3;
+    let mirror = DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0)) * DMat4::from_rotation_x(0.4);
+    comes_back(View::from_matrices(mirror, clip_from_eye, ClipSpace::WGPU.reversed()).unwrap());
+}
+
+/// A rotation that came out of a matrix is orthonormal enough to be read again.
+#[test]
+fn views_of_every_rotation() {
+    for step in 0..1000 {
+        let angle = f64::from(step);
+        let turn = DMat4::from_rotation_x(angle * 0.37) * DMat4::from_rotation_y(angle * 1.31);
+        let turn = turn * DMat4::from_rotation_z(angle * 2.17);
+        let clip_from_eye = DMat4::from_scale(DVec3::new(0.1, 0.1, -0.02));
+        comes_back(View::from_matrices(turn, clip_from_eye, ClipSpace::WGPU).unwrap());
+    }
+}
+
+#[test]
+fn an_infinite_far_plane_is_stored_as_nothing() {
+    assert_eq!(to_value(view(f64::INFINITY)).unwrap()["far"], Value::Null);
+}
+
+#[test]
+fn tampered_views() {
+    let view = view(500.0);
+    tampered(&view, "/near", json!(-1.0), "near is too small");
+    tampered(&view, "/near", json!(501.0), "far has its minimum above its maximum");
+    tampered(&view, "/far", json!(1e300), "far is too large");
+    tampered(&view, "/eye/0", json!(1e300), "eye is too large");
+    tampered(&view, "/forward/0", json!(0.5), "forward is more than rotation");
+    tampered(&view, "/up", json!([0.0, 0.0, 0.0]), "forward is more than rotation");
+    // A ten-thousandth too long: far beyond rounding, and within what glam calls normalized.
+    let long = (view.right() * 1.00005).to_array();
+    tampered(&view, "/right", json!(long), "forward is more than rotation");
+    tampered(&view, "/frame_min/0", json!(9.0), "frame has its minimum above its maximum");
+    tampered(&view, "/lens", json!("Fisheye"), "unknown variant");
+    tampered(&view, "/near", Value::Null, "null");
+    // Only a perspective view sees infinitely far.
+    let parallel = View::orthographic(DVec3::ONE, DVec3::X, DVec3::Y, 5.0, 1.3, -4.0, 9.0).unwrap();
+    tampered(&parallel, "/far", Value::Null, "far is not a finite number");
+}
+
+#[test]
+fn lights() {
+    comes_back(Light::directional((0.3, 1.0, 0.2)).unwrap());
+    comes_back(Light::point((0.3, 1.0, 0.2), 0.1, f64::INFINITY).unwrap());
+    comes_back(spot());
+    comes_back(Light::hemisphere((0.3, 1.0, 0.2), (0.2, -1.0, 0.7), 0.1, 9.0).unwrap());
+}
+
+/// A unit vector that is made unit length again may change by a rounding, and must not at the second reading.
+#[test]
+fn directions_do_not_creep() {
+    for step in 0..1000 {
+        let (sine, cosine) = f32::sin_cos(step as f32);
+        let light = Light::directional((f64::from(sine), 0.3, f64::from(cosine))).unwrap();
+        comes_back(light);
+    }
+}
+
+#[test]
+fn tampered_lights() {
+    let place = |name: &str| format!("/kind/Local/{name}");
+    let spot = spot();
+    tampered(&spot, &place("near"), json!(0.0), "near is too small");
+    tampered(&spot, &place("near"), json!(99.0), "range has its minimum above its maximum");
+    tampered(&spot, &place("range"), json!(-1.0), "range is too small");
+    tampered(&spot, &place("position/1"), json!(1e200), "position is too large");
+    tampered(&spot, &place("shape/Spot/half_angle"), json!(1.6), "half_angle is outside the open range");
+    tampered(&spot, &place("shape/Spot/axis"), json!([0.0, 0.0, 0.0]), "axis has no direction");
+    let sun = Light::directional(DVec3::Y).unwrap();
+    let place = "/kind/Directional/direction_to_light";
+    tampered(&sun, place, json!([0.0, -0.0, 0.0]), "direction_to_light has no direction");
+}
+
+#[test]
+fn settings() {
+    comes_back(Settings::default());
+    let settings = Settings::new(512, 720).unwrap().with_border(7).unwrap();
+    let settings = settings.with_clip(ClipSpace::OPENGL.reversed()).with_origin(Origin::Eye);
+    comes_back(settings.with_warp(Warp::Uniform).with_shift(Shift::Back(Form::Tight)));
+    tampered(&settings, "/map_size", json!(0), "map_size is too small");
+    tampered(&settings, "/map_size", json!(-1), "expected u32");
+    tampered(&settings, "/image_height", json!(1_000_000), "image_height is too large");
+    tampered(&settings, "/border", json!(500), "border is too large");
+}
+
+#[test]
+fn results() {
+    let (view, light) = (view(500.0), spot());
+    comes_back::<LightClass>(classify(&view, &light));
+    // Infinitely far from the eye.
+    comes_back::<LightClass>(classify(&view, &Light::directional(DVec3::Y).unwrap()));
+    let scene = Scene::from_box((-20.0, 0.0, -30.0), (20.0, 5.0, 9.0)).unwrap();
+    let focus = Focus::new(&view, &light, &scene);
+    let Outcome::Map(map) = focus.fit(&Settings::default()) else { panic!("no map") };
+    let report = map.report(&focus);
+    comes_back::<VirtualCamera>(report.camera);
+    comes_back::<Window>(report.window);
+    comes_back::<DepthSpan>(report.depth);
+    comes_back::<DepthResolution>(report.depth_resolution);
+    comes_back::<Footprint>(map.footprint(focus.visible().vertices()[0]).unwrap());
+    comes_back::<Plane>(report.body.planes().next().unwrap());
+    comes_back(Aabb::new(Vec3::NEG_ONE, Vec3::ONE * 0.1));
+    comes_back([Empty::NothingVisible, Empty::NothingCasts]);
+    comes_back(Surrounded);
+    comes_back([DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32]);
+    comes_back([NearCase::CameraPlane, NearCase::AlongView, NearCase::Eye, NearCase::InsideView]);
+}
