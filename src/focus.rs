@@ -132,11 +132,15 @@ impl<'a> Focus<'a> {
     /// Makes H of any body, telling `each` which planes bound it.
     pub(crate) fn cut_body(&self, body: &mut Polyhedron, form: Form, mut each: impl FnMut(Plane, PlaneId)) {
         body.clear();
+        let Some(region) = &self.casters else { return };
         let hull = match form {
-            Form::Paper => Some(PlaneList::hull_of_frustum(&self.view_planes, self.light.homogeneous())),
+            Form::Paper => {
+                let l = self.light.homogeneous();
+                Some(PlaneList::hull_of_frustum(&self.view_planes, l, region.extent()))
+            }
             Form::Tight => self.hull_of_visible(),
         };
-        if let (Some(region), Some(hull)) = (&self.casters, hull) {
+        if let Some(hull) = hull {
             let extent = self.cut_lit(body, region, &mut each);
             clip_all(body, &hull, VIEW_IDS, extent, &mut each);
         }
@@ -230,23 +234,27 @@ impl PlaneList {
     }
 
     fn push_silhouette(&mut self, towards: (Plane, f64), away: (Plane, f64)) {
-        self.push(away.0 * towards.1 - towards.0 * away.1);
+        // By their sum, so that factors of any size keep their digits.
+        let sum = towards.1 - away.1;
+        self.push(away.0 * (towards.1 / sum) - towards.0 * (away.1 / sum));
     }
 
-    /// hull(V, l). A frustum's edges are known: planes 0 and 1, 2 and 3, 4 and 5 face each other and all others meet.
-    fn hull_of_frustum(frustum: &FrustumPlanes, l: DVec4) -> Self {
+    /// hull(V, l) within S, whose largest absolute coordinates are `extent`. A frustum's edges are known: planes 0 and 1,
+    /// 2 and 3, 4 and 5 face each other and all others meet. An infinite far plane is the plane at infinity, which a
+    /// light at a position is inside of: hull(V, l) then holds all of V moved to begin at l.
+    fn hull_of_frustum(frustum: &FrustumPlanes, l: DVec4, extent: DVec3) -> Self {
         let mut hull = Self::EMPTY;
-        let mut values = [0.0; 6];
-        for (plane, value) in frustum.iter().zip(&mut values) {
-            *value = plane.on(l);
+        // Where a sum of planes cancels, the roundings of its terms do not: each brings its own slack along.
+        let planes = frustum.with_infinity().map(|plane| (plane.loosened(extent), plane.on(l)));
+        for (plane, value) in &planes[..frustum.len()] {
             if *value >= 0.0 {
                 hull.push(*plane);
             }
         }
-        for (i, towards) in frustum.iter().enumerate() {
-            for (j, away) in frustum.iter().enumerate() {
-                if values[i] > 0.0 && values[j] < 0.0 && i / 2 != j / 2 {
-                    hull.push_silhouette((*towards, values[i]), (*away, values[j]));
+        for (i, towards) in planes.iter().enumerate() {
+            for (j, away) in planes.iter().enumerate() {
+                if towards.1 > 0.0 && away.1 < 0.0 && i / 2 != j / 2 {
+                    hull.push_silhouette(*towards, *away);
                 }
             }
         }

@@ -50,7 +50,13 @@ impl Rays {
                 let mut directions = [DVec3::ZERO; Polyhedron::MAX_VERTICES];
                 let mut len = 0;
                 for (direction, point) in directions.iter_mut().zip(visible) {
-                    *direction = (point - position).try_normalize().ok_or(NoAxis)?;
+                    let arm = point - position;
+                    let distance = arm.length();
+                    // A light a few roundings away from what is visible is on its boundary, and it has no direction.
+                    if distance <= ROUNDINGS * (point.abs() + position.abs()).max_element() {
+                        return Err(NoAxis);
+                    }
+                    *direction = arm / distance;
                     len += 1;
                 }
                 let (axis, margin) = widest_margin(&directions[..len]).ok_or(NoAxis)?;
@@ -105,6 +111,9 @@ impl Rays {
         self.u_axis * across.x + self.v_axis * across.y + self.axis * w
     }
 }
+
+/// Roundings between a vertex and the exact one, see [`Plane::loosened`].
+const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 
 /// A linear function of `(U, V, 1)` on the chart.
 #[derive(Clone, Copy, Debug, PartialEq)]

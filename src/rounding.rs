@@ -12,6 +12,9 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 /// terms' magnitudes. Eight leave room for terms of second order and for a row that is the sum of two (depth −1 to 1).
 const UNITS: f64 = 8.0 / 16_777_216.0;
 
+/// The same in f64, for the dozen or two roundings between a point of the input and a row of the matrix.
+const UNITS_F64: f64 = 32.0 * f64::EPSILON;
+
 /// The largest rounding of the rows a, b, e and c of a homography, relative to c, over what is visible and over what can
 /// cast on it.
 ///
@@ -64,6 +67,13 @@ impl Rounding {
         let rows = map.rows;
         let about = rows.x_axis * origin.x + rows.y_axis * origin.y + rows.z_axis * origin.z + rows.w_axis;
         let [x, y, z, w] = [rows.x_axis, rows.y_axis, rows.z_axis, about].map(|column| column.abs() * UNITS);
+        // Moving a matrix to an origin far away cancels terms in f64 that f32 then knows nothing of.
+        let [away_x, away_y, away_z] = (origin.abs() * UNITS_F64).to_array();
+        let cancelled = rows.x_axis.abs() * away_x
+            + rows.y_axis.abs() * away_y
+            + rows.z_axis.abs() * away_z
+            + rows.w_axis.abs() * UNITS_F64;
+        let w = w + cancelled;
         let (visible, casting) = (Worst::default(), Worst::default());
         Self { magnitudes: DMat4::from_cols(x, y, z, w), origin, visible, casting, local: rays.local }
     }

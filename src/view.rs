@@ -233,7 +233,8 @@ impl View {
         let (depth, one) = (self.depth_row(), self.frame_unit());
         let (x, y) = (Plane::through(self.right, self.eye), Plane::through(self.up, self.eye));
         let near = depth - Plane::ONE * self.near;
-        let far = if self.far.is_finite() { Plane::ONE * self.far - depth } else { Plane::ONE };
+        // An infinite one is the plane at infinity. Any multiple would do: this one scales with the scene as others do.
+        let far = if self.far.is_finite() { Plane::ONE * self.far - depth } else { Plane::ONE * self.near };
         FrustumPlanes {
             planes: [
                 x - one * self.frame_min.x,
@@ -317,6 +318,13 @@ impl View {
 pub struct FrustumPlanes {
     planes: [Plane; 6],
     len: usize,
+}
+
+impl FrustumPlanes {
+    /// All six, with the plane at infinity for an infinite far plane.
+    pub(crate) const fn with_infinity(&self) -> &[Plane; 6] {
+        &self.planes
+    }
 }
 
 impl core::ops::Deref for FrustumPlanes {
