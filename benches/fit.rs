@@ -1,10 +1,15 @@
 //! Time: `cargo bench --bench fit`. Read ratios within one run, not times across runs: machines are noisy.
 
+// Cases may be laid out with whatever sines the platform has, and the macros' items have no documentation.
+#![allow(clippy::disallowed_methods, missing_docs)]
+
 mod cases;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use shadowfit::glam::DVec3;
-use shadowfit::{Focus, Form, InputError, Light, Outcome, Scene, Settings, classify, fit};
+use shadowfit::glam::{DMat4, DVec3, Mat4, Vec3};
+use shadowfit::{
+    Aabb, ConvexScene, Focus, Form, InputError, Light, Outcome, Plane, Scene, Settings, classify, fit,
+};
 use std::hint::black_box;
 
 /// Each step on its own, and the whole fit.
@@ -30,7 +35,7 @@ fn steps(criterion: &mut Criterion) -> Result<(), InputError> {
     }
     if let Some(corners) = view.corners() {
         criterion.bench_function("directional/fit, naive", |b| {
-            b.iter(|| cases::naive_fit(black_box(&corners), black_box(DVec3::new(0.3, 1.0, 0.4).normalize())));
+            b.iter(|| naive_fit(black_box(&corners), black_box(DVec3::new(0.3, 1.0, 0.4).normalize())));
         });
     }
     Ok(())
@@ -41,7 +46,7 @@ fn culling(criterion: &mut Criterion) -> Result<(), InputError> {
     let (view, scene) = (cases::view()?, cases::scene()?);
     let sun = Light::directional((0.3, 1.0, 0.4))?;
     let body = Focus::new(&view, &sun, &scene).body(Form::Tight);
-    let (culler, boxes) = (body.culler(), cases::boxes(10_000));
+    let (culler, boxes) = (body.culler(), boxes(10_000));
     let mut meets = vec![false; boxes.len()];
     let mut group = criterion.benchmark_group("10,000 boxes");
     group.throughput(Throughput::Bytes(size_of_val(boxes.as_slice()) as u64));
@@ -84,13 +89,60 @@ fn growth(criterion: &mut Criterion) -> Result<(), InputError> {
     let sun = Light::directional((0.3, 1.0, 0.4))?;
     let mut group = criterion.benchmark_group("planes of S");
     for cuts in [0, 2, 4, 8, 12] {
-        let body = cases::cut_scene(cuts)?;
+        let body = cut_scene(cuts)?;
         group.bench_function(BenchmarkId::from_parameter(6 + cuts), |b| {
             b.iter(|| fit(black_box(&view), &sun, &Scene::from_convex(&body), &Settings::default()));
         });
     }
     group.finish();
     Ok(())
+}
+
+/// The bounds of the town with `cuts` more planes.
+fn cut_scene(cuts: usize) -> Result<ConvexScene, InputError> {
+    let planes: Vec<Plane> = (0..cuts)
+        .map(|cut| {
+            let angle = 0.4 + cut as f64;
+            let inwards = DVec3::new(angle.cos(), 0.1, angle.sin());
+            Plane::through(inwards, -190.0 * inwards)
+        })
+        .collect();
+    ConvexScene::new((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0), &planes)
+}
+
+/// Objects scattered over the town.
+fn boxes(count: usize) -> Vec<Aabb> {
+    (0..count)
+        .map(|index| {
+            // Multiples of two irrational numbers fill a square evenly.
+            let at = |step: f64| 400.0 * (index as f64 * step).fract() - 200.0;
+            let min = Vec3::new(at(0.754_877_666) as f32, 0.0, at(0.569_840_29) as f32);
+            Aabb::new(min, min + Vec3::new(2.0, 3.0, 2.0))
+        })
+        .collect()
+}
+
+/// What most engines do for a directional light: the light-space box around the corners of the view's frustum.
+///
+/// It holds no caster before the near plane and knows nothing of the scene.
+fn naive_fit(corners: &[DVec3; 8], direction_to_light: DVec3) -> Mat4 {
+    let (right, up) = direction_to_light.any_orthonormal_pair();
+    let light_from_world = DMat4::from_cols(
+        DVec3::new(right.x, up.x, -direction_to_light.x).extend(0.0),
+        DVec3::new(right.y, up.y, -direction_to_light.y).extend(0.0),
+        DVec3::new(right.z, up.z, -direction_to_light.z).extend(0.0),
+        DVec3::ZERO.extend(1.0),
+    );
+    let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for &corner in corners {
+        let seen = light_from_world.transform_point3(corner);
+        (min, max) = (min.min(seen), max.max(seen));
+    }
+    let size = max - min;
+    let centre = 0.5 * (min + max);
+    let scale = DVec3::new(2.0 / size.x, 2.0 / size.y, 1.0 / size.z);
+    let offset = DVec3::new(-centre.x, -centre.y, -min.z) * scale;
+    (DMat4::from_translation(offset) * DMat4::from_scale(scale) * light_from_world).as_mat4()
 }
 
 fn all(criterion: &mut Criterion) {

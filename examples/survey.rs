@@ -2,6 +2,9 @@
 //!
 //! `cargo run --release --example survey`
 
+// Views may be drawn with whatever sines the platform has.
+#![allow(clippy::disallowed_methods)]
+
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use shadowfit::glam::DVec3;

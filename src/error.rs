@@ -88,6 +88,12 @@ pub(crate) mod check {
         Err(InputError { field, problem })
     }
 
+    /// Zero for a number so small that products of a few of its kind would underflow: below 2⁻²⁰⁰, about 10⁻⁶⁰.
+    fn flushed(value: f64) -> f64 {
+        const TINY: f64 = 6.223_015_277_861_142e-61;
+        if value.abs() < TINY { 0.0 } else { value }
+    }
+
     /// A coordinate or signed distance.
     pub(crate) fn coordinate(field: &'static str, value: f64) -> Result<f64, InputError> {
         if !value.is_finite() {
@@ -95,16 +101,13 @@ pub(crate) mod check {
         } else if value.abs() > MAX_COORDINATE {
             fail(field, Problem::TooLarge)
         } else {
-            Ok(value)
+            Ok(flushed(value))
         }
     }
 
     /// A point.
     pub(crate) fn point(field: &'static str, value: DVec3) -> Result<DVec3, InputError> {
-        coordinate(field, value.x)?;
-        coordinate(field, value.y)?;
-        coordinate(field, value.z)?;
-        Ok(value)
+        Ok(DVec3::new(coordinate(field, value.x)?, coordinate(field, value.y)?, coordinate(field, value.z)?))
     }
 
     /// A positive distance.
@@ -124,7 +127,7 @@ pub(crate) mod check {
             return fail(field, Problem::NotFinite);
         }
         if (value.length_squared() - 1.0).abs() <= 4.0 * f64::EPSILON {
-            return Ok(value);
+            return Ok(value.map(flushed));
         }
         // Scaled by a power of two first, so that neither tiny nor huge directions under- or overflow when squared.
         let largest = value.abs().max_element();
@@ -132,6 +135,6 @@ pub(crate) mod check {
             return fail(field, Problem::NoDirection);
         }
         let scaled = value / largest;
-        Ok(scaled / scaled.length())
+        Ok((scaled / scaled.length()).map(flushed))
     }
 }

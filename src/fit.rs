@@ -187,6 +187,10 @@ fn fit_visible(
             rounding.include_visible(point, values.w);
         }
     }
+    if seen == 0.0 {
+        // All that is visible is nearer to the light than anything casts.
+        return Outcome::Empty(Empty::NothingCasts);
+    }
     let window = Rectangle::over(&x, &y);
 
     // The depth range: from the first caster in the window, its border included, to the last of what is visible.

@@ -84,7 +84,10 @@ impl<'a> Focus<'a> {
     fn gather(&mut self, casters: &[Aabb], receivers: &[Aabb]) {
         let lit_view = || self.view_planes.iter().chain(self.light_planes.iter()).copied();
         self.receivers = union(receivers, lit_view);
-        if let Some(hull) = self.hull_of_visible() {
+        // What casts stands between the receivers and the light.
+        let extent = self.receivers.map_or(DVec3::ZERO, |region| region.extent());
+        let extent = extent.max(self.light.position().unwrap_or(DVec3::ZERO).abs());
+        if let Some(hull) = self.hull_of_visible(extent) {
             self.casters = union(casters, || hull.iter().chain(self.light_planes.iter()).copied());
         }
     }
@@ -138,7 +141,7 @@ impl<'a> Focus<'a> {
                 let l = self.light.homogeneous();
                 Some(PlaneList::hull_of_frustum(&self.view_planes, l, region.extent()))
             }
-            Form::Tight => self.hull_of_visible(),
+            Form::Tight => self.hull_of_visible(region.extent()),
         };
         if let Some(hull) = hull {
             let extent = self.cut_lit(body, region, &mut each);
@@ -160,11 +163,11 @@ impl<'a> Focus<'a> {
         extent
     }
 
-    /// hull(R, l), or `None` when R is empty.
-    fn hull_of_visible(&self) -> Option<PlaneList> {
+    /// hull(R, l) within `extent`, or `None` when R is empty.
+    fn hull_of_visible(&self, extent: DVec3) -> Option<PlaneList> {
         // Planes that bound the casters anyway need not bound them twice.
         let known = if self.separate { LIGHT_IDS..VIEW_IDS } else { 0..VIEW_IDS };
-        PlaneList::hull_of_body(&self.visible(), self.light.homogeneous(), &known)
+        PlaneList::hull_of_body(&self.visible(), self.light.homogeneous(), extent, &known)
     }
 }
 
@@ -239,53 +242,73 @@ impl PlaneList {
         self.push(away.0 * (towards.1 / sum) - towards.0 * (away.1 / sum));
     }
 
+    /// The silhouettes between the planes of a body that face the light and those that do not, where they `meet`.
+    fn push_silhouettes(
+        &mut self,
+        planes: &[(Plane, f64)],
+        towards: u64,
+        away: u64,
+        meet: impl Fn(usize, usize) -> bool,
+    ) {
+        for i in Bits(towards) {
+            for j in Bits(away) {
+                if meet(i, j) {
+                    self.push_silhouette(planes[i], planes[j]);
+                }
+            }
+        }
+    }
+
     /// hull(V, l) within S, whose largest absolute coordinates are `extent`. A frustum's edges are known: planes 0 and 1,
     /// 2 and 3, 4 and 5 face each other and all others meet. An infinite far plane is the plane at infinity, which a
     /// light at a position is inside of: hull(V, l) then holds all of V moved to begin at l.
     fn hull_of_frustum(frustum: &FrustumPlanes, l: DVec4, extent: DVec3) -> Self {
         let mut hull = Self::EMPTY;
-        // Where a sum of planes cancels, the roundings of its terms do not: each brings its own slack along.
-        let planes = frustum.with_infinity().map(|plane| (plane.loosened(extent), plane.on(l)));
+        let planes = frustum.with_infinity().map(|plane| with_value(plane, l, extent));
         for (plane, value) in &planes[..frustum.len()] {
             if *value >= 0.0 {
                 hull.push(*plane);
             }
         }
-        for (i, towards) in planes.iter().enumerate() {
-            for (j, away) in planes.iter().enumerate() {
-                if towards.1 > 0.0 && away.1 < 0.0 && i / 2 != j / 2 {
-                    hull.push_silhouette(*towards, *away);
-                }
-            }
-        }
+        let side =
+            |sign: f64| (0..).zip(&planes).fold(0, |set, (i, (_, value))| set | u64::from(sign * value > 0.0) << i);
+        hull.push_silhouettes(&planes, side(1.0), side(-1.0), |i, j| i / 2 != j / 2);
         hull
     }
 
-    /// hull(R, l), less the planes of R with `known` names, or `None` when R is empty.
-    fn hull_of_body(body: &Body, l: DVec4, known: &core::ops::Range<PlaneId>) -> Option<Self> {
+    /// hull(R, l) within `extent`, less the planes of R with `known` names, or `None` when R is empty.
+    fn hull_of_body(body: &Body, l: DVec4, extent: DVec3, known: &core::ops::Range<PlaneId>) -> Option<Self> {
         if body.is_empty() {
             return None;
         }
         let mut hull = Self::EMPTY;
         let (planes, used) = body.plane_table();
+        let planes = &planes.map(|plane| with_value(plane, l, extent));
         let (mut towards, mut away) = (0_u64, 0_u64);
         for bit in Bits(used) {
-            let value = planes[bit].on(l);
+            let (plane, value) = planes[bit];
             towards |= u64::from(value > 0.0) << bit;
             away |= u64::from(value < 0.0) << bit;
             if value >= 0.0 && !known.contains(&(bit as PlaneId)) {
-                hull.push(planes[bit]);
+                hull.push(plane);
             }
         }
-        for i in Bits(towards) {
-            for j in Bits(away) {
-                if body.meet(i, j) {
-                    hull.push_silhouette((planes[i], planes[i].on(l)), (planes[j], planes[j].on(l)));
-                }
-            }
+        let bound = hull.len;
+        hull.push_silhouettes(planes, towards, away, |i, j| body.meet(i, j));
+        // A segment's ends have no edge in common, and bound its hull with a light in line with it all the same.
+        if hull.len == bound {
+            hull.push_silhouettes(planes, towards, away, |_, _| true);
         }
         Some(hull)
     }
+}
+
+/// A plane, moved outwards by what rounding can do inside of `extent`, and its value at l before that.
+///
+/// Where a sum of planes cancels, the roundings of its terms do not: each brings its own slack along. And the sum passes
+/// l by that slack, as it passes the body.
+fn with_value(plane: Plane, l: DVec4, extent: DVec3) -> (Plane, f64) {
+    (plane.loosened(extent), plane.on(l))
 }
 
 impl core::ops::Deref for PlaneList {

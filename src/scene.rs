@@ -75,8 +75,7 @@ impl<'a> Scene<'a> {
 }
 
 fn checked_box(min: DVec3, max: DVec3) -> Result<(DVec3, DVec3), InputError> {
-    check::point("min", min)?;
-    check::point("max", max)?;
+    let (min, max) = (check::point("min", min)?, check::point("max", max)?);
     if min.cmple(max).all() { Ok((min, max)) } else { check::fail("max", Problem::OutOfOrder) }
 }
 
@@ -114,14 +113,9 @@ impl ConvexScene {
         all[..6].copy_from_slice(&box_planes(min, max));
         let extent = min.abs().max(max.abs());
         for (id, (plane, slot)) in (6..).zip(planes.iter().zip(&mut all[6..])) {
-            let length = plane.normal.length();
-            if !(plane.offset.is_finite() && length.is_finite()) {
-                return check::fail(FIELD, Problem::NotFinite);
-            }
-            if length == 0.0 {
-                return check::fail(FIELD, Problem::NoDirection);
-            }
-            *slot = plane.normalized().loosened(extent);
+            let normal = check::direction(FIELD, plane.normal)?;
+            let offset = check::coordinate(FIELD, plane.offset * (normal.dot(plane.normal)).recip())?;
+            *slot = Plane::new(normal, offset).loosened(extent);
             body.clip(slot, id);
         }
         if body.is_empty() {
@@ -152,7 +146,7 @@ impl ConvexScene {
         let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let mut slabs = [(f64::INFINITY, f64::NEG_INFINITY); DIRECTIONS.len()];
         for point in points {
-            check::point(FIELD, point)?;
+            let point = check::point(FIELD, point)?;
             (min, max) = (min.min(point), max.max(point));
             for (slab, direction) in slabs.iter_mut().zip(DIRECTIONS) {
                 let along = direction.dot(point);

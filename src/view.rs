@@ -152,11 +152,13 @@ impl View {
         far: f64,
     ) -> Result<Self, InputError> {
         let eye = check::point("eye", eye)?;
-        let corner = check::point("frame", frame_min.extend(0.0)).and(check::point("frame", frame_max.extend(0.0)));
-        corner?;
+        let corner = |corner: DVec2| check::point("frame", corner.extend(0.0)).map(DVec3::truncate);
+        let (frame_min, frame_max) = (corner(frame_min)?, corner(frame_max)?);
         if !(frame_min.x < frame_max.x && frame_min.y < frame_max.y) {
             return check::fail("frame", Problem::OutOfOrder);
         }
+        let size = frame_max - frame_min;
+        check::distance("frame", size.x).and(check::distance("frame", size.y))?;
         let (near, far) = match lens {
             Lens::Perspective => (check::distance("near", near)?, check::distance_or_infinity("far", far)?),
             Lens::Orthographic => (check::coordinate("near", near)?, check::coordinate("far", far)?),

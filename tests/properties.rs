@@ -500,6 +500,10 @@ fn exercise(view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) 
     assert!(map.matrix().is_finite(), "{}", map.matrix());
     assert!(map.texture_matrix().is_finite(), "{}", map.texture_matrix());
     assert!(map.shadow_from_world().is_finite(), "{}", map.shadow_from_world());
+    for &point in focus.visible().vertices() {
+        let position = map.shadow_from_world() * point.extend(1.0);
+        assert!(position.is_finite(), "{point} is at {position}");
+    }
     let report = map.report(&focus);
     let DepthResolution { unorm16, unorm24, float32 } = report.depth_resolution;
     let (window, depth, camera) = (report.window, report.depth, report.camera);
@@ -636,6 +640,27 @@ fn lamp_a_rounding_away_from_a_corner_of_what_is_visible() {
             let lamps = [Light::point(position, 0.01, 100.0), Light::hemisphere(position, axis, 0.01, 100.0)];
             for light in lamps {
                 exercise(&view, &light.expect("a legal light"), &scene, &Settings::default());
+            }
+        }
+    }
+}
+
+/// Nothing that is visible is as far from the lamp as where it begins to cast.
+#[test]
+fn lamp_whose_near_distance_reaches_beyond_what_is_visible() {
+    let eye = DVec3::new(1e6, 0.0, 0.0);
+    let view = View::perspective(eye, DVec3::Z, DVec3::Y, 1.5, 1.0, 0.001, 0.005).expect("a legal view");
+    let scene = Scene::from_box(eye - DVec3::splat(0.8), eye + DVec3::splat(0.8)).expect("a legal scene");
+    let flat = Scene::from_box(eye + DVec3::new(-0.8, 0.0, -0.8), eye + DVec3::new(0.8, 0.002, 0.8));
+    for scene in [scene, flat.expect("a legal scene")] {
+        for position in [eye, eye - DVec3::Z * 1e-3, eye + DVec3::X * 1e-3] {
+            for axis in [DVec3::Z, DVec3::new(-0.7, 0.2, 0.68)] {
+                let light = Light::hemisphere(position, axis, 0.03, f64::INFINITY).expect("a legal light");
+                let settings = Settings::default().with_warp(Warp::Uniform);
+                for settings in [settings, settings.with_warp(Warp::Perspective)] {
+                    exercise(&view, &light, &scene, &settings);
+                    exercise(&view, &light, &scene, &settings.with_origin(Origin::Eye));
+                }
             }
         }
     }

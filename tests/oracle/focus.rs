@@ -1,7 +1,8 @@
 //! The focus body of the crate against the exact one, on cases at random.
 //!
 //! `cargo test --test oracle focus -- --nocapture` prints the worst figures. An ordinary run takes
-//! 2,000 cases; `SHADOWFIT_CASES=100000` in the environment takes that many.
+//! 2,500 cases; `SHADOWFIT_CASES=120000` in the environment takes that many. One in six is a scene of
+//! lists, whose bounds are the crate's own choice, and is passed over.
 //!
 //! The exact bodies are those of the very `f64` planes that the crate hands out, and for each of
 //! R = V ∩ S ∩ L, hull(V, l) ∩ S ∩ L and hull(R, l) ∩ S ∩ L two things are asserted:
@@ -312,7 +313,7 @@ fn check(case: &Case, figures: &mut [Figures; 3]) {
 #[test]
 fn bodies_hold_the_exact_ones_and_little_more() {
     let figures = RefCell::<[Figures; 3]>::default();
-    run(2000, &case(), |case| check(&case, &mut figures.borrow_mut()));
+    run(2500, &case(), |case| check(&case, &mut figures.borrow_mut()));
     for (figures, name) in figures.borrow_mut().iter_mut().zip(["R", "paper", "tight"]) {
         figures.print(name);
     }
@@ -364,4 +365,20 @@ fn scene_that_is_a_point_at_the_lamp() {
     let lamp = [0.0, 5.333_275_472_640_323, 0.0];
     let light = LightParams::Point { position: lamp, near: 3e-4, range: None };
     check_one(view, light, SceneParams::Bounds { min: lamp, max: lamp });
+}
+
+/// The two ends of such a scene have no edge in common, and still their planes and the lamp bound a hull.
+#[test]
+fn lamp_on_the_line_of_a_scene_that_is_a_segment() {
+    let pose = Pose {
+        eye: [0.0; 3],
+        forward: [1.0, 0.0, -1.0],
+        up: [-0.014_261_899_152_505_08, 1.020_746_944_496_340_6, -0.043_199_103_308_165_23],
+    };
+    let (fov_y, aspect) = (0.853_117_987_799_680_6, 0.942_871_682_521_709_6);
+    let view = ViewParams::Perspective { pose, fov_y, aspect, near: 0.455_363_927_774_044_33, far: Some(12.9) };
+    let [y, z] = [-0.124_690_321_598_245_93, -0.212_588_798_226_178_7];
+    let light = LightParams::Point { position: [0.380_962_981_626_110_75, y, z], near: 3.6e-4, range: None };
+    let scene = SceneParams::Bounds { min: [-0.797_397_325_351_127, y, z], max: [0.810_482_848_011_230_6, y, z] };
+    check_one(view, light, scene);
 }
