@@ -41,5 +41,5 @@ tar --create --exclude=./target --exclude=./.git --exclude=./out . | tar --extra
         cargo update --package "$version" --precise "$lowest"
     done
     cargo tree --package shadowfit --depth 1 --prefix none | grep --quiet "^glam v$lowest"
-    CARGO_TARGET_DIR=target cargo test --package shadowfit --all-features
+    CARGO_TARGET_DIR=../../target cargo test --package shadowfit --all-features
 )

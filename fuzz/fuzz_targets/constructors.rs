@@ -19,9 +19,29 @@ struct Input {
 
 #[derive(Arbitrary, Debug)]
 enum ViewInput {
-    Perspective { eye: [f64; 3], forward: [f64; 3], up: [f64; 3], fov_y: f64, aspect: f64, near: f64, far: f64 },
-    Orthographic { eye: [f64; 3], forward: [f64; 3], up: [f64; 3], half_height: f64, aspect: f64, near: f64, far: f64 },
-    Matrices { eye_from_world: [f64; 16], clip_from_eye: [f64; 16], reversed: bool },
+    Perspective {
+        eye: [f64; 3],
+        forward: [f64; 3],
+        up: [f64; 3],
+        fov_y: f64,
+        aspect: f64,
+        near: f64,
+        far: f64,
+    },
+    Orthographic {
+        eye: [f64; 3],
+        forward: [f64; 3],
+        up: [f64; 3],
+        half_height: f64,
+        aspect: f64,
+        near: f64,
+        far: f64,
+    },
+    Matrices {
+        eye_from_world: [f64; 16],
+        clip_from_eye: [f64; 16],
+        reversed: bool,
+    },
 }
 
 #[derive(Arbitrary, Debug)]
