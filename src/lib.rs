@@ -78,6 +78,7 @@ mod bounds;
 mod clip_space;
 mod convex;
 mod cull;
+mod decode;
 mod error;
 mod fit;
 mod focus;

@@ -26,7 +26,8 @@ pub enum Shift {
 }
 
 impl Default for Shift {
-    /// As the paper has it. On outdoor views it halves the worst aliasing that the unshifted warp leaves (README).
+    /// As the paper has it. On outdoor views the median of the worst aliasing, over the uniform map's, is 0.45 with it
+    /// and 0.73 without (the `survey` example).
     fn default() -> Self {
         Self::Back(Form::Paper)
     }
