@@ -105,9 +105,10 @@ impl Focus<'_> {
         // One body after another in the same memory: H where the camera is moved back by it, R, and what can cast
         // into the window.
         let mut body = Polyhedron::EMPTY;
-        let depths = match settings.shift() {
-            Shift::None => None,
-            Shift::Back(form) => {
+        let depths = match (settings.warp(), settings.shift()) {
+            // Without a warp it does not matter where its camera stands.
+            (Warp::Uniform, _) | (Warp::Perspective, Shift::None) => None,
+            (Warp::Perspective, Shift::Back(form)) => {
                 self.cut_body(&mut body, form, |_, _| ());
                 Some(VirtualCamera::depths(self.view(), body.positions()))
             }

@@ -15,7 +15,7 @@ pub enum Warp {
     Perspective,
 }
 
-/// Where the camera stands whose perspective warps the map.
+/// Where the camera stands whose perspective warps the map; it makes no difference to a uniform one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Shift {
