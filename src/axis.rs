@@ -9,8 +9,8 @@ use glam::DVec3;
 /// It points to the point of their convex hull nearest to the origin (Wolfe 1976), and depends on the directions
 /// continuously.
 pub(crate) fn widest_margin(directions: &[DVec3]) -> Option<(DVec3, f64)> {
-    /// Each step adds one direction and shortens the distance to the hull, so that the steps end by themselves. In
-    /// the many thousands of cases tested there were at most a dozen; this only says that there is an end.
+    /// Each step adds one direction and shortens the distance to the hull, so that the steps end by themselves; this
+    /// only says that there is an end.
     const MAX_STEPS: usize = 64;
     let mut support = Support { points: [*directions.first()?; 3], len: 1 };
     let mut nearest = support.points[0];

@@ -180,14 +180,18 @@ fn maps_hold_what_they_must() {
             for point in points {
                 // A scene of millimetres about a lamp a thousand kilometres from the origin is beyond f32: w may be 0.
                 let (across, of_w) = rounding(&map, &together.view, point);
-                // So is the place of a caster next to a lamp, to a thousandth of the window.
-                let is_beyond = of_w > 0.5 || name == "H" && l.w > 0.0 && across > 1.0 / 1024.0;
-                if !together.is_served(point) || is_beyond {
+                if !together.is_served(point) || of_w > 0.5 {
                     continue;
                 }
+                // A caster next to a lamp, whose place f32 cannot tell to a thousandth of the window, may be off by that.
+                let is_beside_lamp = name == "H" && l.w > 0.0 && across > 1.0 / 1024.0;
+                let inner = if is_beside_lamp { inner + across } else { inner };
                 let position = in_f32(&map, &together.view, point);
                 let shown = position.truncate() / position.w;
                 assert!(is_in_window(position, inner), "{name}: {point} is at {shown}, w {}", position.w);
+                if is_beside_lamp {
+                    continue;
+                }
                 // Among lists, receivers may be nearer to the light than the first caster.
                 let separate = matches!(case.scene, SceneParams::Lists { .. });
                 let [behind, before] = is_in_depth(settings.clip(), position);

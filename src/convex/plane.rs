@@ -52,9 +52,9 @@ impl Plane {
 
     /// The plane moved outwards by what rounding can make of it at points no farther out than `extent` on each axis.
     ///
-    /// In doubt a body grows and never shrinks. A vertex comes out of at most a dozen interpolations, each within three
+    /// In doubt a body grows and never shrinks. A vertex comes out of a chain of interpolations, each within three
     /// roundings of its edge, and one evaluation of this plane costs four more: `SLACK` roundings of the largest term
-    /// cover them with room to spare.
+    /// cover a dozen interpolations, and no case that the exact oracle in `tests` was asked about needs more.
     #[must_use]
     pub(crate) fn loosened(&self, extent: DVec3) -> Self {
         /// Roundings allowed for, see above.
