@@ -1,5 +1,7 @@
 //! Triangles in world space.
 
+use std::ops::Range;
+
 use shadowfit::glam::{DMat3, DMat4, DVec3, Vec3};
 
 use super::LeftOut;
@@ -15,6 +17,19 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
     /// The linear RGB base colour of each triangle.
     pub colours: Vec<[f32; 3]>,
+    /// The parts the mesh was made of, in the order of their triangles: what a renderer culls and draws as one.
+    pub objects: Vec<Object>,
+}
+
+/// A part of a mesh that is drawn as one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Object {
+    /// Its triangles, never none.
+    pub triangles: Range<u32>,
+    /// The least coordinates of its triangles, in world space.
+    pub min: DVec3,
+    /// The greatest.
+    pub max: DVec3,
 }
 
 impl Mesh {
@@ -48,7 +63,11 @@ impl Mesh {
     /// The least and greatest coordinates of all triangles. A box turned inside out where there are none.
     #[must_use]
     pub fn bounds(&self) -> (DVec3, DVec3) {
-        let used = self.triangles.iter().flatten().map(|&i| self.vertices[i as usize]);
+        self.bounds_of(0..self.triangles.len())
+    }
+
+    fn bounds_of(&self, triangles: Range<usize>) -> (DVec3, DVec3) {
+        let used = self.triangles[triangles].iter().flatten().map(|&i| self.vertices[i as usize]);
         used.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), v| (min.min(v), max.max(v)))
     }
 }
@@ -78,6 +97,7 @@ impl MeshBuilder {
     /// Adds a part. Triangles with an index beyond the positions must have been refused before.
     pub fn add(&mut self, part: &Part<'_>, world_from_part: DMat4) {
         let first = self.mesh.vertices.len() as u32;
+        let first_triangle = self.mesh.triangles.len();
         self.mesh.vertices.extend(part.positions.iter().map(|&p| world_from_part.transform_point3(p)));
 
         // Normals are covectors: they go with the cofactor matrix, which is the inverse transpose but for a factor
@@ -110,6 +130,11 @@ impl MeshBuilder {
                 self.mesh.triangles.push(corners);
                 self.mesh.colours.push(part.colour);
             }
+        }
+        if first_triangle < self.mesh.triangles.len() {
+            let (min, max) = self.mesh.bounds_of(first_triangle..self.mesh.triangles.len());
+            let triangles = first_triangle as u32..self.mesh.triangles.len() as u32;
+            self.mesh.objects.push(Object { triangles, min, max });
         }
     }
 

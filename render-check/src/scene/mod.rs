@@ -11,7 +11,7 @@ use std::path::Path;
 
 use anyhow::{Result, bail};
 
-pub use mesh::{Mesh, MeshBuilder, Part};
+pub use mesh::{Mesh, MeshBuilder, Object, Part};
 
 use crate::framing::Camera;
 use crate::light::LightSpec;
