@@ -24,6 +24,7 @@ pub mod args;
 pub mod check;
 pub mod fitting;
 pub mod framing;
+pub mod gpu;
 pub mod light;
 pub mod picture;
 pub mod progress;

@@ -1,0 +1,134 @@
+//! The adapter, and what everything on it needs.
+
+use anyhow::{Context, Result, anyhow};
+use pollster::block_on;
+use shadowfit::glam::Mat4;
+use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
+
+/// Said where there is no adapter.
+const NO_ADAPTER: &str = "no graphics adapter was found: install a Vulkan driver (on Debian, `apt-get install \
+                          mesa-vulkan-drivers` has one in software), or use `render-check draw`, which needs none";
+
+/// A graphics card, or a driver that does the same in software.
+pub struct Gpu {
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
+    name: String,
+    /// Nanoseconds in one tick of a timestamp, where there are timestamps.
+    pub(super) tick: Option<f64>,
+}
+
+impl Gpu {
+    /// Opens the adapter that the environment names (`WGPU_ADAPTER_NAME`), else the fastest one.
+    ///
+    /// # Errors
+    ///
+    /// When there is none, with what to do about it.
+    pub fn new() -> Result<Self> {
+        block_on(Self::open())
+    }
+
+    async fn open() -> Result<Self> {
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        let adapter = match std::env::var("WGPU_ADAPTER_NAME") {
+            Ok(_) => wgpu::util::initialize_adapter_from_env(&instance, None).await.map_err(anyhow::Error::from),
+            Err(_) => {
+                let power_preference = wgpu::PowerPreference::HighPerformance;
+                let options = wgpu::RequestAdapterOptions { power_preference, ..Default::default() };
+                instance.request_adapter(&options).await.map_err(anyhow::Error::from)
+            }
+        }
+        .context(NO_ADAPTER)?;
+        let info = adapter.get_info();
+        let timestamps = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
+        let description = wgpu::DeviceDescriptor {
+            label: None,
+            required_features: timestamps,
+            // All that the adapter has: maps of 8192² texels and scenes of a million triangles are asked for.
+            required_limits: adapter.limits(),
+            ..Default::default()
+        };
+        let (device, queue) = adapter
+            .request_device(&description)
+            .await
+            .with_context(|| format!("the graphics adapter '{}' cannot be used", info.name))?;
+        let tick = (!timestamps.is_empty()).then(|| f64::from(queue.get_timestamp_period()));
+        Ok(Self { device, queue, name: format!("{} ({})", info.name, info.backend), tick })
+    }
+
+    /// What the adapter calls itself, and the API it is reached through.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The largest side of a texture.
+    #[must_use]
+    pub fn largest_texture(&self) -> u32 {
+        self.device.limits().max_texture_dimension_2d
+    }
+
+    /// Does work whose mistakes come back as errors: on its own, the device reports them by a panic.
+    pub(super) fn guarded<T>(&self, what: &str, work: impl FnOnce() -> Result<T>) -> Result<T> {
+        let scopes = [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::OutOfMemory, wgpu::ErrorFilter::Internal]
+            .map(|filter| self.device.push_error_scope(filter));
+        let result = work();
+        let mut complaint = None;
+        for scope in scopes.into_iter().rev() {
+            complaint = block_on(scope.pop()).or(complaint);
+        }
+        match complaint {
+            Some(error) => Err(anyhow!("{error}")).with_context(|| format!("{}: {what}", self.name)),
+            None => result,
+        }
+    }
+
+    pub(super) fn uniforms(&self, matrices: &[Mat4]) -> wgpu::Buffer {
+        let numbers: Vec<f32> = matrices.iter().flat_map(Mat4::to_cols_array).collect();
+        let contents = bytemuck::cast_slice(&numbers);
+        let usage = wgpu::BufferUsages::UNIFORM;
+        self.device.create_buffer_init(&BufferInitDescriptor { label: None, contents, usage })
+    }
+
+    pub(super) fn shader(&self, source: &str) -> wgpu::ShaderModule {
+        let source = wgpu::ShaderSource::Wgsl(source.into());
+        self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source })
+    }
+
+    /// A texture that passes can draw to and read from, with its view.
+    pub(super) fn target(
+        &self,
+        [width, height]: [u32; 2],
+        format: wgpu::TextureFormat,
+    ) -> (wgpu::Texture, wgpu::TextureView) {
+        let mut usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        if !format.is_depth_stencil_format() {
+            usage |= wgpu::TextureUsages::COPY_SRC;
+        }
+        let texture = self.device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage,
+            view_formats: &[],
+        });
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        (texture, view)
+    }
+
+    pub(super) fn bindings(
+        &self,
+        pipeline: &wgpu::RenderPipeline,
+        resources: &[wgpu::BindingResource<'_>],
+    ) -> wgpu::BindGroup {
+        let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..)
+            .zip(resources)
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() })
+            .collect();
+        let layout = &pipeline.get_bind_group_layout(0);
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+    }
+}

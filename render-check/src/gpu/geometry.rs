@@ -1,0 +1,58 @@
+//! The triangles on the card.
+
+use std::ops::Range;
+
+use anyhow::{Result, ensure};
+use shadowfit::glam::DVec3;
+use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
+
+use super::Gpu;
+use crate::scene::Mesh;
+
+/// The triangles of a mesh in f32, three vertices each, so that the number of a vertex tells its triangle.
+pub struct Geometry {
+    pub(super) vertices: wgpu::Buffer,
+    pub(super) vertex_count: u32,
+    origin: DVec3,
+}
+
+impl Geometry {
+    /// The floats of a vertex.
+    pub(super) const ATTRIBUTES: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![0 => Float32x3];
+
+    /// Uploads a mesh with its positions relative to `origin`, in world space. The difference is taken in f64, so that
+    /// near the origin nothing is lost far out in the world.
+    ///
+    /// # Errors
+    ///
+    /// When the card cannot hold so many triangles.
+    pub fn upload(gpu: &Gpu, mesh: &Mesh, origin: DVec3) -> Result<Self> {
+        let corners = mesh.triangles.iter().flatten().map(|&i| mesh.vertices[i as usize] - origin);
+        let numbers: Vec<f32> = corners.flat_map(|corner| corner.as_vec3().to_array()).collect();
+        let contents: &[u8] = bytemuck::cast_slice(&numbers);
+        let most = gpu.device.limits().max_buffer_size;
+        ensure!(
+            contents.len() as u64 <= most,
+            "{} has room for {} triangles, not for {}",
+            gpu.name(),
+            most / 36,
+            mesh.triangles.len()
+        );
+        let usage = wgpu::BufferUsages::VERTEX;
+        let vertices = gpu.guarded("the triangles", || {
+            Ok(gpu.device.create_buffer_init(&BufferInitDescriptor { label: None, contents, usage }))
+        })?;
+        Ok(Self { vertices, vertex_count: 3 * mesh.triangles.len() as u32, origin })
+    }
+
+    /// What positions on the card are relative to, in world space.
+    #[must_use]
+    pub fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    /// The vertices of a range of triangles.
+    pub(super) fn vertices_of(triangles: &Range<u32>) -> Range<u32> {
+        3 * triangles.start..3 * triangles.end
+    }
+}

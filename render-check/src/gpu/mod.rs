@@ -1,0 +1,24 @@
+//! The harness on the graphics card: what a renderer does with a fitted map, and no more. Any adapter will do, a
+//! software one too.
+//!
+//! | step | what it makes |
+//! |---|---|
+//! | [`Geometry`] | the triangles on the card, in f32, about an origin |
+//! | [`Surfaces`] | what a camera sees: the position and the triangle of every pixel |
+//! | [`ShadowMap`] | the depths of the casters, through a map's matrix |
+//! | [`shadow_test`] | how much light reaches every pixel, as the shadow map has it |
+
+mod device;
+mod geometry;
+mod pass;
+mod read_back;
+mod shaders;
+mod shadow_map;
+mod shadow_test;
+mod surfaces;
+
+pub use device::Gpu;
+pub use geometry::Geometry;
+pub use shadow_map::{Bias, Faces, MapPass, ShadowMap};
+pub use shadow_test::{Filter, Shadows, shadow_test};
+pub use surfaces::Surfaces;

@@ -1,0 +1,168 @@
+//! One pass: draw calls into targets, and how long the card took for them.
+
+use std::ops::Range;
+use std::time::Duration;
+
+use anyhow::Result;
+
+use super::{Geometry, Gpu, read_back};
+
+/// Pipelines, in the few ways they differ here.
+pub(super) struct PipelineKind<'a> {
+    pub(super) shader: &'a str,
+    pub(super) constants: &'a [(&'a str, f64)],
+    pub(super) takes_geometry: bool,
+    pub(super) primitive: wgpu::PrimitiveState,
+    pub(super) depth: Option<wgpu::DepthStencilState>,
+    pub(super) targets: &'a [wgpu::TextureFormat],
+}
+
+impl PipelineKind<'_> {
+    pub(super) fn build(&self, gpu: &Gpu) -> wgpu::RenderPipeline {
+        let module = &gpu.shader(self.shader);
+        let compilation_options =
+            wgpu::PipelineCompilationOptions { constants: self.constants, ..Default::default() };
+        let geometry = [Some(wgpu::VertexBufferLayout {
+            array_stride: 12,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            attributes: &Geometry::ATTRIBUTES,
+        })];
+        let targets: Vec<_> = self.targets.iter().map(|&format| Some(format.into())).collect();
+        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: None,
+            layout: None,
+            vertex: wgpu::VertexState {
+                module,
+                entry_point: Some("vertex"),
+                compilation_options: compilation_options.clone(),
+                buffers: if self.takes_geometry { &geometry } else { &[] },
+            },
+            primitive: self.primitive,
+            depth_stencil: self.depth.clone(),
+            multisample: wgpu::MultisampleState::default(),
+            fragment: (!targets.is_empty()).then_some(wgpu::FragmentState {
+                module,
+                entry_point: Some("fragment"),
+                compilation_options,
+                targets: &targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+/// A depth buffer that is written where the comparison passes.
+pub(super) fn depth_state(
+    format: wgpu::TextureFormat,
+    compare: wgpu::CompareFunction,
+    bias: wgpu::DepthBiasState,
+) -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format,
+        depth_write_enabled: Some(true),
+        depth_compare: Some(compare),
+        stencil: wgpu::StencilState::default(),
+        bias,
+    }
+}
+
+/// What a pass draws, with what, and where to.
+pub(super) struct Pass<'a> {
+    pub(super) pipeline: &'a wgpu::RenderPipeline,
+    pub(super) bindings: &'a wgpu::BindGroup,
+    pub(super) colours: &'a [&'a wgpu::TextureView],
+    /// The depth buffer and what it is cleared to.
+    pub(super) depth: Option<(&'a wgpu::TextureView, f32)>,
+    /// The vertices to draw from; none for the triangle that covers the target.
+    pub(super) geometry: Option<&'a Geometry>,
+    pub(super) draws: &'a [Range<u32>],
+}
+
+impl Pass<'_> {
+    /// Runs the pass, colours cleared to zeros, and waits for it. The time is the card's own, where it has a clock.
+    pub(super) fn run(&self, gpu: &Gpu) -> Result<Option<Duration>> {
+        let clock = gpu.tick.map(|tick| (tick, Clock::new(gpu)));
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let colours: Vec<_> = self.colours.iter().map(|view| Some(cleared(view))).collect();
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                color_attachments: &colours,
+                depth_stencil_attachment: self.depth.map(|(view, clear)| wgpu::RenderPassDepthStencilAttachment {
+                    view,
+                    depth_ops: Some(wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(clear),
+                        store: wgpu::StoreOp::Store,
+                    }),
+                    stencil_ops: None,
+                }),
+                timestamp_writes: clock.as_ref().map(|(_, clock)| clock.around_pass()),
+                ..Default::default()
+            });
+            pass.set_pipeline(self.pipeline);
+            pass.set_bind_group(0, self.bindings, &[]);
+            if let Some(geometry) = self.geometry {
+                pass.set_vertex_buffer(0, geometry.vertices.slice(..));
+            }
+            for vertices in self.draws {
+                pass.draw(vertices.clone(), 0..1);
+            }
+        }
+        if let Some((_, clock)) = &clock {
+            encoder.resolve_query_set(&clock.queries, 0..2, &clock.resolved, 0);
+            encoder.copy_buffer_to_buffer(&clock.resolved, 0, &clock.readable, 0, 16);
+        }
+        gpu.queue.submit([encoder.finish()]);
+        clock.map(|(tick, clock)| clock.read(gpu, tick)).transpose()
+    }
+}
+
+fn cleared(view: &wgpu::TextureView) -> wgpu::RenderPassColorAttachment<'_> {
+    wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+    }
+}
+
+/// Two timestamps, before and after a pass.
+struct Clock {
+    queries: wgpu::QuerySet,
+    resolved: wgpu::Buffer,
+    readable: wgpu::Buffer,
+}
+
+impl Clock {
+    fn new(gpu: &Gpu) -> Self {
+        let description = wgpu::QuerySetDescriptor { label: None, ty: wgpu::QueryType::Timestamp, count: 2 };
+        let buffer = |usage| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: None,
+                size: 16,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        Self {
+            queries: gpu.device.create_query_set(&description),
+            resolved: buffer(wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC),
+            readable: buffer(wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST),
+        }
+    }
+
+    fn around_pass(&self) -> wgpu::RenderPassTimestampWrites<'_> {
+        wgpu::RenderPassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: Some(0),
+            end_of_pass_write_index: Some(1),
+        }
+    }
+
+    fn read(&self, gpu: &Gpu, tick: f64) -> Result<Duration> {
+        let bytes = read_back::bytes(gpu, &self.readable)?;
+        let ticks: &[u64] = bytemuck::cast_slice(&bytes);
+        let elapsed = ticks[1].saturating_sub(ticks[0]);
+        Ok(Duration::from_secs_f64(elapsed as f64 * tick * 1e-9))
+    }
+}

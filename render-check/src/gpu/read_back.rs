@@ -1,0 +1,71 @@
+//! From the card back to main memory.
+
+use anyhow::{Context, Result};
+use bytemuck::Pod;
+
+use super::pass::{Pass, PipelineKind};
+use super::{Gpu, shaders};
+
+/// The bytes of a buffer that can be mapped, once all work so far is done.
+pub(super) fn bytes(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>> {
+    buffer.map_async(wgpu::MapMode::Read, .., |_| {});
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).context("the graphics card stopped answering")?;
+    let bytes = buffer.get_mapped_range(..).context("the graphics card's answer cannot be read")?.to_vec();
+    buffer.unmap();
+    Ok(bytes)
+}
+
+/// The texels of a texture, row by row from the top.
+pub(super) fn texels<T: Pod>(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<T>> {
+    let (width, height) = (texture.width() as usize, texture.height() as usize);
+    let row = width * size_of::<T>();
+    // Rows in buffers start at multiples of 256 bytes.
+    let padded_row = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT as usize);
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: (padded_row * height) as u64,
+        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    encoder.copy_texture_to_buffer(
+        texture.as_image_copy(),
+        wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout: wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(padded_row as u32),
+                rows_per_image: None,
+            },
+        },
+        texture.size(),
+    );
+    gpu.queue.submit([encoder.finish()]);
+    let bytes = bytes(gpu, &buffer)?;
+    Ok(bytes.chunks_exact(padded_row).flat_map(|padded| bytemuck::pod_collect_to_vec(&padded[..row])).collect())
+}
+
+/// The depths of a depth buffer, row by row from the top.
+pub(super) fn depths(gpu: &Gpu, view: &wgpu::TextureView, size: u32) -> Result<Vec<f32>> {
+    let format = wgpu::TextureFormat::R32Float;
+    let (copy, copy_view) = gpu.target([size, size], format);
+    let pipeline = PipelineKind {
+        shader: shaders::COPY_DEPTH,
+        constants: &[],
+        takes_geometry: false,
+        primitive: wgpu::PrimitiveState::default(),
+        depth: None,
+        targets: &[format],
+    }
+    .build(gpu);
+    let pass = Pass {
+        pipeline: &pipeline,
+        bindings: &gpu.bindings(&pipeline, &[wgpu::BindingResource::TextureView(view)]),
+        colours: &[&copy_view],
+        depth: None,
+        geometry: None,
+        draws: &[0..3],
+    };
+    pass.run(gpu)?;
+    texels(gpu, &copy)
+}

@@ -1,0 +1,56 @@
+//! The shaders, put together from small files: what they share is there once.
+
+/// What the camera sees; vertices in, positions and triangles out.
+pub(super) const SURFACES: &str = include_str!("shaders/surfaces.wgsl");
+
+/// Casters into a shadow map.
+pub(super) const SHADOW_MAP: &str = include_str!("shaders/shadow_map.wgsl");
+
+/// A depth buffer as plain numbers.
+pub(super) const COPY_DEPTH: &str =
+    concat!(include_str!("shaders/full_screen.wgsl"), include_str!("shaders/copy_depth.wgsl"));
+
+/// The shadow test with each lookup.
+pub(super) const NEAREST: &str = shadow_test!("shaders/nearest.wgsl");
+/// See [`NEAREST`].
+pub(super) const HARDWARE: &str = shadow_test!("shaders/hardware.wgsl");
+/// See [`NEAREST`].
+pub(super) const PERCENTAGE_CLOSER: &str = shadow_test!("shaders/percentage_closer.wgsl");
+
+macro_rules! shadow_test {
+    ($lookup:literal) => {
+        concat!(
+            include_str!("shaders/full_screen.wgsl"),
+            include_str!("shaders/shadow_test.wgsl"),
+            include_str!($lookup)
+        )
+    };
+}
+use shadow_test;
+
+#[cfg(test)]
+mod tests {
+    use naga::front::wgsl;
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+    use super::*;
+
+    #[test]
+    fn every_shader_is_valid_without_any_device() {
+        for (name, source) in [
+            ("surfaces", SURFACES),
+            ("shadow map", SHADOW_MAP),
+            ("copy depth", COPY_DEPTH),
+            ("nearest", NEAREST),
+            ("hardware", HARDWARE),
+            ("percentage closer", PERCENTAGE_CLOSER),
+        ] {
+            let module = wgsl::parse_str(source).unwrap_or_else(|e| panic!("{name}: {}", e.emit_to_string(source)));
+            let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+            let result = validator.validate(&module);
+            assert!(result.is_ok(), "{name}: {}", result.unwrap_err().emit_to_string(source));
+            // One bare `textureSampleCompare` would need uniform control flow, which naga does not look for.
+            assert!(!source.contains("textureSampleCompare("), "{name}");
+        }
+    }
+}

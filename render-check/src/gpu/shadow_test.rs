@@ -1,0 +1,122 @@
+//! The shadow test of every pixel.
+
+use std::time::Duration;
+
+use anyhow::Result;
+use shadowfit::glam::{Mat4, Vec3};
+use shadowfit::{ClipSpace, TextureOrigin};
+
+use super::pass::{Pass, PipelineKind};
+use super::{Gpu, ShadowMap, Surfaces, read_back, shaders};
+
+/// How a shadow map is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Filter {
+    /// The one texel that a point lies in.
+    Nearest,
+    /// The four texels around it, compared and blended by the sampler.
+    Hardware,
+    /// The mean over so many texels across and down, each compared.
+    PercentageCloser(u32),
+}
+
+impl Filter {
+    /// How far from a point the middles of the texels lie that are read for it, at most, across and down, in texels.
+    #[must_use]
+    pub fn reach(self) -> f64 {
+        match self {
+            Self::Nearest => 0.5,
+            Self::Hardware => 1.0,
+            Self::PercentageCloser(taps) => 0.5 * f64::from(taps),
+        }
+    }
+}
+
+/// What came of a shadow test.
+pub struct Shadows {
+    /// The share of light that reaches each pixel, row by row from the top: 0 in shadow, 1 in light or in the sky.
+    pub lit: Vec<f32>,
+    /// How long the card took, where it has a clock.
+    pub time: Option<Duration>,
+}
+
+/// Tests every pixel of a camera's image against a shadow map. Both must have been drawn from the same geometry, or
+/// from geometries with the same origin.
+///
+/// # Errors
+///
+/// When the card refuses.
+pub fn shadow_test(gpu: &Gpu, surfaces: &Surfaces, shadow_map: &ShadowMap, filter: Filter) -> Result<Shadows> {
+    gpu.guarded("the shadow test", || shadow_test_unguarded(gpu, surfaces, shadow_map, filter))
+}
+
+fn shadow_test_unguarded(
+    gpu: &Gpu,
+    surfaces: &Surfaces,
+    shadow_map: &ShadowMap,
+    filter: Filter,
+) -> Result<Shadows> {
+    let clip = shadow_map.map.settings().clip();
+    let reversed = clip.depth.is_reversed();
+    let (shader, taps) = match filter {
+        Filter::Nearest => (shaders::NEAREST, None),
+        Filter::Hardware => (shaders::HARDWARE, None),
+        Filter::PercentageCloser(taps) => (shaders::PERCENTAGE_CLOSER, Some(("taps", f64::from(taps)))),
+    };
+    let mut constants = vec![];
+    // The hardware's comparison is the sampler's own.
+    if filter != Filter::Hardware {
+        constants.push(("reversed", f64::from(u8::from(reversed))));
+    }
+    constants.extend(taps);
+    let format = wgpu::TextureFormat::R32Float;
+    let pipeline = PipelineKind {
+        shader,
+        constants: &constants,
+        takes_geometry: false,
+        primitive: wgpu::PrimitiveState::default(),
+        depth: None,
+        targets: &[format],
+    }
+    .build(gpu);
+
+    let receiver = gpu.uniforms(&[shadow_map.map.texture_matrix(), sampled_from_texture(clip)]);
+    let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        compare: Some(match reversed {
+            true => wgpu::CompareFunction::GreaterEqual,
+            false => wgpu::CompareFunction::LessEqual,
+        }),
+        ..Default::default()
+    });
+    let mut resources = vec![
+        receiver.as_entire_binding(),
+        wgpu::BindingResource::TextureView(&surfaces.positions),
+        wgpu::BindingResource::TextureView(&shadow_map.view),
+    ];
+    if filter == Filter::Hardware {
+        resources.push(wgpu::BindingResource::Sampler(&sampler));
+    }
+    let (lit, lit_view) = gpu.target(surfaces.size, format);
+    let pass = Pass {
+        pipeline: &pipeline,
+        bindings: &gpu.bindings(&pipeline, &resources),
+        colours: &[&lit_view],
+        depth: None,
+        geometry: None,
+        draws: &[0..3],
+    };
+    let time = pass.run(gpu)?;
+    Ok(Shadows { lit: read_back::texels(gpu, &lit)?, time })
+}
+
+/// From an API that counts texture rows from the bottom to wgpu, which counts them from the top: there the same row of
+/// the map is read at 1 − v.
+fn sampled_from_texture(clip: ClipSpace) -> Mat4 {
+    match clip.texture_origin {
+        TextureOrigin::TopLeft => Mat4::IDENTITY,
+        TextureOrigin::BottomLeft => Mat4::from_translation(Vec3::Y) * Mat4::from_scale(Vec3::new(1.0, -1.0, 1.0)),
+    }
+}

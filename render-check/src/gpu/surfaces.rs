@@ -1,0 +1,73 @@
+//! What a camera sees: the camera pass.
+
+use std::time::Duration;
+
+use anyhow::Result;
+use shadowfit::View;
+use shadowfit::glam::{DMat4, DVec3, DVec4};
+
+use super::pass::{Pass, PipelineKind, depth_state};
+use super::{Geometry, Gpu, read_back, shaders};
+
+/// The surface that each pixel of a camera's image shows: its position, relative to the geometry's origin, on the
+/// card, and which triangle it is, here.
+pub struct Surfaces {
+    pub(super) size: [u32; 2],
+    pub(super) positions: wgpu::TextureView,
+    /// The triangle of each pixel, row by row from the top; [`Surfaces::SKY`] where there is none.
+    pub triangles: Vec<u32>,
+    /// How long the card took, where it has a clock.
+    pub time: Option<Duration>,
+}
+
+impl Surfaces {
+    /// The triangle of a pixel that shows nothing.
+    pub const SKY: u32 = u32::MAX;
+
+    /// Draws all triangles as a camera sees them, width by height pixels.
+    ///
+    /// # Errors
+    ///
+    /// When the card refuses, as it does images larger than it can hold.
+    pub fn draw(gpu: &Gpu, geometry: &Geometry, view: &View, size: [u32; 2]) -> Result<Self> {
+        gpu.guarded("the camera's view", || Self::draw_unguarded(gpu, geometry, view, size))
+    }
+
+    fn draw_unguarded(gpu: &Gpu, geometry: &Geometry, view: &View, size: [u32; 2]) -> Result<Self> {
+        // Depth reversed in f32, which keeps far surfaces apart as well as near ones.
+        let depth_format = wgpu::TextureFormat::Depth32Float;
+        let formats = [wgpu::TextureFormat::Rgba32Float, wgpu::TextureFormat::R32Uint];
+        let pipeline = PipelineKind {
+            shader: shaders::SURFACES,
+            constants: &[],
+            takes_geometry: true,
+            primitive: wgpu::PrimitiveState::default(),
+            depth: Some(depth_state(depth_format, wgpu::CompareFunction::Greater, Default::default())),
+            targets: &formats,
+        }
+        .build(gpu);
+        let from_origin = DMat4::from_translation(geometry.origin());
+        let camera = gpu.uniforms(&[(reversed_clip_from_world(view) * from_origin).as_mat4()]);
+        let [(_, positions), (triangles, triangles_view)] = formats.map(|format| gpu.target(size, format));
+        let (_, depth) = gpu.target(size, depth_format);
+        let pass = Pass {
+            pipeline: &pipeline,
+            bindings: &gpu.bindings(&pipeline, &[camera.as_entire_binding()]),
+            colours: &[&positions, &triangles_view],
+            depth: Some((&depth, 0.0)),
+            geometry: Some(geometry),
+            draws: &[0..geometry.vertex_count],
+        };
+        let time = pass.run(gpu)?;
+        // Pixels that nothing was drawn to hold zeros, as triangle 0 does: numbers on the card are one higher.
+        let numbers: Vec<u32> = read_back::texels(gpu, &triangles)?;
+        let triangles = numbers.into_iter().map(|number| number.wrapping_sub(1)).collect();
+        Ok(Self { size, positions, triangles, time })
+    }
+}
+
+/// World space to a clip space with depth 1 at the near plane and 0 at the far plane.
+fn reversed_clip_from_world(view: &View) -> DMat4 {
+    let reverse = DMat4::from_translation(0.5 * DVec3::Z) * DMat4::from_diagonal(DVec4::new(1.0, 1.0, -0.5, 1.0));
+    reverse * view.clip_from_world()
+}
