@@ -2,33 +2,67 @@
 
 use std::path::PathBuf;
 
-use clap::Parser;
 use clap::builder::RangedU64ValueParser;
+use clap::{Parser, Subcommand, ValueEnum};
 use shadowfit::glam::DVec3;
+use shadowfit::{ClipSpace, DepthFormat};
 
+use crate::gpu::{Bias, Filter};
 use crate::light::LightSpec;
+use crate::run::Options;
+use crate::technique::Technique;
+use crate::trace::Faces;
 
-const AFTER_HELP: &str = "\
+const EXAMPLES: &str = "\
 Examples:
   render-check
       the built-in chess board under a sun, a lamp and a spot: needs no file at all
+  render-check street --technique uniform --technique psm --size 512 --size 2048
+      another built-in scene, two techniques, two sizes of map
   render-check sponza.glb --eye -11.5,2,-0.3 --target 8,4.5,0 --fov 75 --light sun:0.15,1,0.25
       a file, a camera and a sun of your own
-  render-check room.glb --light point:0,2.4,0/12 --light spot:3,3,0/0,0,0/50
-      a lamp that reaches 12 units and a spot with a cone of 50 degrees, each fitted on its own
-  render-check city.glb --near 1 --far inf --size 2048 --out /tmp/city
-      an infinite far plane, maps of 2048 x 2048 texels, pictures in /tmp/city
+  render-check room.glb --light point:0,2.4,0/12 --light spot:3,3,0/0,0,0/50 --filter pcf3
+      a lamp that reaches 12 units and a spot with a cone of 50 degrees, read with 3 x 3 texels
+  render-check draw city.glb --near 1 --far inf --size 2048
+      only the fit and its pictures, by ray casting: needs no graphics driver
+  render-check walk street --steps 48
+      a camera that walks, and the pixels that flicker
+  render-check sweep
+      the hard cases: lights through the camera's plane, every clip space, scenes of any size";
 
+const LIGHTS: &str = "\
 Lights (parts are separated by '/'; all in world units, Y is up):
   sun:X,Y,Z                               directional; X,Y,Z points TOWARDS the light: sun:0,1,0 is noon
   point:X,Y,Z[/RANGE]                     a lamp at X,Y,Z; RANGE is how far it reaches, else without end
   spot:X,Y,Z/TX,TY,TZ/DEGREES[/RANGE]     a lamp at X,Y,Z aimed at TX,TY,TZ; DEGREES is the full cone angle
-  Without --light: the lights of the file, and where it has none, a sun.
+  Without --light: the lights of the scene, and where it has none, a sun.
 
 The camera:
-  --eye and --target; without them the first perspective camera of the file; without one, a camera that shows
-  the whole scene. Near and far planes that nobody gives are put close around what is in view.
+  --eye and --target; without them the first perspective camera of the scene; without one, a camera that shows
+  the whole scene. Near and far planes that nobody gives are put close around what is in view.";
 
+const CHECK_HELP: &str = "\
+What is compared: every pixel that the light could reach, were nothing in its way. The card draws the map with the
+crate's matrix and tests the pixel against it; a ray from the same point to the light says what is true.
+
+The table:
+  drawn       triangles that culling against H left to draw, of all
+  aliasing    the longer side of a texel over that of a pixel: at worst among the pixels, and the median
+  missing     pixels lit because a caster was clipped or culled: must be none
+  false       false shadow and false light, away from edges, in percent of what is compared
+  edge        wrong within a texel's reach, or within a pixel, of the edge of a true shadow, in percent
+  worst       the largest cluster of wrong pixels that are no edge: how many, and where
+  fit, map, test   times of the fit on the processor and of the card's passes, medians over --frames
+
+Written to --out, per light and map:
+  check.json               everything, for programs
+  N-KIND-truth.png         the camera's view with ray-traced shadows
+  N-KIND-MAP-image.png     the same with the shadows of the map
+  N-KIND-MAP-faults.png    false shadow red, false light blue, edges amber, missing casters magenta
+  N-KIND-MAP-map.png       the shadow map
+  N-KIND-MAP-aliasing.png  texel over pixel";
+
+const DRAW_HELP: &str = "\
 Pictures, per light (N counts the lights from 1):
   N-KIND-camera.png   the camera's view with ray-traced shadows; the focus body H in orange, dim where hidden
   N-KIND-light.png    the scene as the light sees it: H in orange, the camera's frustum in blue; what lies
@@ -45,16 +79,52 @@ The table:
   aliasing    the longest side of a texel over that of a pixel, at its worst in view: 1 is ideal, above it shows
   fit         the median time of one PSM fit, on this machine";
 
-/// Fits shadow maps to a scene and shows what came of it.
+const WALK_HELP: &str = "\
+What is counted: pixels of each step that change between light and shadow when the map fitted for the next step takes
+the place of this step's, though nothing moved but the camera, so that the truth is the same. Only points that both
+cameras have in view count. Written to --out: walk.json.";
+
+const SWEEP_HELP: &str = "\
+Each case is a small picture of a built-in scene, drawn with every technique and held against ray-traced truth. The
+table has a line for each group of cases, with the worst that was found in it; --out gets all of it as sweep.json.
+The command fails when a caster is missing anywhere.";
+
+/// Draws scenes with fitted shadow maps on a graphics card and compares every pixel with ray-traced truth.
 ///
-/// For every light it computes the focus body H (all that must be in the shadow map), the light's class and the
-/// matrices of a uniform and of a perspective shadow map (PSM), prints them as a table and draws pictures of them.
+/// Without a command it checks one scene: every light, with each technique and size of map.
 #[derive(Clone, Debug, Parser)]
-#[command(name = "render-check", version, after_help = AFTER_HELP, max_term_width = 110)]
+#[command(name = "render-check", version, max_term_width = 110, args_conflicts_with_subcommands = true)]
+#[command(after_help = format!("{EXAMPLES}\n\n{LIGHTS}\n\n{CHECK_HELP}"))]
 pub struct Args {
-    /// A binary glTF file; without it, a chess board made by code
-    #[arg(value_name = "SCENE.GLB")]
-    pub scene: Option<PathBuf>,
+    /// What to do, if not to check a scene.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+
+    /// What to check.
+    #[command(flatten)]
+    pub check: CheckArgs,
+}
+
+/// What there is to do besides checking a scene.
+#[derive(Clone, Debug, Subcommand)]
+pub enum Command {
+    /// Fits and draws by ray casting, without a graphics card: H, what the light sees, what the maps hold
+    #[command(after_help = format!("{LIGHTS}\n\n{DRAW_HELP}"))]
+    Draw(DrawArgs),
+    /// Walks the camera and counts the pixels that flicker
+    #[command(after_help = format!("{LIGHTS}\n\n{WALK_HELP}"))]
+    Walk(WalkArgs),
+    /// Checks the hard cases, all of them
+    #[command(after_help = SWEEP_HELP)]
+    Sweep(SweepArgs),
+}
+
+/// A camera before a scene, and its lights.
+#[derive(Clone, Debug, clap::Args)]
+pub struct ViewArgs {
+    /// A binary glTF file, or a built-in scene: chess-board, street, behind, leaves, room, ground
+    #[arg(value_name = "SCENE", default_value = "chess-board")]
+    pub scene: PathBuf,
 
     /// A light: sun:…, point:… or spot:…, spelled as below; may be given several times
     #[arg(long = "light", value_name = "LIGHT")]
@@ -68,33 +138,253 @@ pub struct Args {
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true, requires = "eye")]
     pub target: Option<DVec3>,
 
-    /// The camera's vertical field of view, in degrees [default: the file's, else 50]
+    /// The camera's vertical field of view, in degrees [default: the scene's, else 50]
     #[arg(long, value_name = "DEGREES", value_parser = parse_field_of_view)]
     pub fov: Option<f64>,
 
-    /// The camera's near plane, in world units [default: the file's, else close to what is in view]
+    /// The camera's near plane, in world units [default: the scene's, else close to what is in view]
     #[arg(long, value_name = "DISTANCE", value_parser = parse_distance)]
     pub near: Option<f64>,
 
-    /// The camera's far plane, in world units or inf [default: the file's, else just behind the scene]
+    /// The camera's far plane, in world units or inf [default: the scene's, else just behind the scene]
     #[arg(long, value_name = "DISTANCE", value_parser = parse_distance)]
     pub far: Option<f64>,
+
+    /// Width of the camera's image, in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 960, value_parser = RangedU64ValueParser::<u32>::new().range(16..=8192))]
+    pub width: u32,
+
+    /// Height of the camera's image, in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 600, value_parser = RangedU64ValueParser::<u32>::new().range(16..=8192))]
+    pub height: u32,
+
+    /// The directory for what is written, made where it is missing [default: out/SCENE]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+impl ViewArgs {
+    /// Width over height of the camera's image.
+    #[must_use]
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.width) / f64::from(self.height)
+    }
+}
+
+/// How maps are fitted, drawn and read.
+#[derive(Clone, Debug, clap::Args)]
+pub struct MapArgs {
+    /// A way to spread the texels; may be given several times [default: uniform, psm, psm-unshifted]
+    #[arg(long = "technique", value_name = "TECHNIQUE", value_enum)]
+    pub techniques: Vec<Technique>,
+
+    /// Texels along each side of a map; may be given several times [default: 1024]
+    #[arg(long = "size", value_name = "TEXELS", value_parser = RangedU64ValueParser::<u32>::new().range(16..=16384))]
+    pub sizes: Vec<u32>,
+
+    /// Bits of depth
+    #[arg(long, value_enum, default_value_t = FormatArg::Unorm24)]
+    pub format: FormatArg,
+
+    /// Which sides of triangles are drawn into the map, as the light sees them
+    #[arg(long, value_enum, default_value_t = FacesArg::All)]
+    pub faces: FacesArg,
+
+    /// How the map is read: nearest, hardware (2 x 2, blended), or pcfN for the mean over N x N texels
+    #[arg(long, value_name = "FILTER", default_value = "nearest", value_parser = parse_filter)]
+    pub filter: Filter,
+
+    /// Whose clip space the matrix is for; what another API's driver does with it is imitated
+    #[arg(long, value_enum, default_value_t = ClipArg::Wgpu)]
+    pub clip: ClipArg,
+
+    /// What is added to depth: steps of the format, and times the slope [default: what the filter needs]
+    #[arg(long, value_name = "STEPS,SLOPE", value_parser = parse_bias, allow_hyphen_values = true)]
+    pub bias: Option<Bias>,
+}
+
+impl MapArgs {
+    /// The options of every map that is asked for, each drawn so many times.
+    #[must_use]
+    pub fn options(&self, frames: u32) -> Vec<Options> {
+        let techniques = if self.techniques.is_empty() { &Technique::COMPARED[..] } else { &self.techniques };
+        let sizes = if self.sizes.is_empty() { &[1024][..] } else { &self.sizes };
+        let of = |&map_size: &u32, &technique: &Technique| Options {
+            clip: self.clip,
+            format: self.format.into(),
+            faces: self.faces.into(),
+            filter: self.filter,
+            bias: self.bias,
+            frames,
+            ..Options::new(technique, map_size)
+        };
+        sizes.iter().flat_map(|size| techniques.iter().map(move |technique| of(size, technique))).collect()
+    }
+}
+
+/// What to check.
+#[derive(Clone, Debug, clap::Args)]
+pub struct CheckArgs {
+    /// The camera, the scene, the lights.
+    #[command(flatten)]
+    pub view: ViewArgs,
+
+    /// The maps.
+    #[command(flatten)]
+    pub map: MapArgs,
+
+    /// How often each map is drawn and read, for the median of the times
+    #[arg(long, default_value_t = 3, value_parser = RangedU64ValueParser::<u32>::new().range(1..=1000))]
+    pub frames: u32,
+}
+
+/// What to draw.
+#[derive(Clone, Debug, clap::Args)]
+pub struct DrawArgs {
+    /// The camera, the scene, the lights.
+    #[command(flatten)]
+    pub view: ViewArgs,
 
     /// Texels along each side of a shadow map
     #[arg(long, value_name = "TEXELS", default_value_t = 1024, value_parser = RangedU64ValueParser::<u32>::new().range(16..=16384))]
     pub size: u32,
+}
 
-    /// Width of the camera's image and of the view pictures, in pixels
-    #[arg(long, value_name = "PIXELS", default_value_t = 960, value_parser = RangedU64ValueParser::<u32>::new().range(16..=8192))]
-    pub width: u32,
+/// Where to walk.
+#[derive(Clone, Debug, clap::Args)]
+pub struct WalkArgs {
+    /// The camera, the scene, the lights.
+    #[command(flatten)]
+    pub view: ViewArgs,
 
-    /// Height of the camera's image and of the view pictures, in pixels
-    #[arg(long, value_name = "PIXELS", default_value_t = 600, value_parser = RangedU64ValueParser::<u32>::new().range(16..=8192))]
-    pub height: u32,
+    /// The maps.
+    #[command(flatten)]
+    pub map: MapArgs,
 
-    /// The directory for the pictures, made where it is missing [default: out/SCENE]
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    /// Steps of the walk
+    #[arg(long, default_value_t = 24, value_parser = RangedU64ValueParser::<u32>::new().range(1..=10000))]
+    pub steps: u32,
+
+    /// How far the camera goes in a step, ahead and half as far aside, in world units
+    /// [default: a hundredth of the distance to what is in the middle of the picture]
+    #[arg(long, value_name = "DISTANCE", value_parser = parse_distance)]
+    pub pace: Option<f64>,
+
+    /// How far the camera turns in a step, in degrees
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.25, allow_hyphen_values = true)]
+    pub turn: f64,
+}
+
+/// What to sweep.
+#[derive(Clone, Debug, clap::Args)]
+pub struct SweepArgs {
+    /// Only groups whose name contains this; may be given several times
+    #[arg(value_name = "GROUP")]
+    pub groups: Vec<String>,
+
+    /// The directory for sweep.json, made where it is missing
+    #[arg(long, value_name = "DIR", default_value = "out/sweep")]
+    pub out: PathBuf,
+}
+
+/// A depth format, as a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FormatArg {
+    /// 16 bits, fixed point
+    Unorm16,
+    /// 24 bits, fixed point
+    Unorm24,
+    /// 32 bits, floating point
+    Float32,
+}
+
+impl From<FormatArg> for DepthFormat {
+    fn from(format: FormatArg) -> Self {
+        match format {
+            FormatArg::Unorm16 => Self::Unorm16,
+            FormatArg::Unorm24 => Self::Unorm24,
+            FormatArg::Float32 => Self::Float32,
+        }
+    }
+}
+
+/// Which sides of triangles, as a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FacesArg {
+    /// Both
+    All,
+    /// Those that face the light
+    Front,
+    /// Those that face away from it
+    Back,
+}
+
+impl From<FacesArg> for Faces {
+    fn from(faces: FacesArg) -> Self {
+        match faces {
+            FacesArg::All => Self::All,
+            FacesArg::Front => Self::Front,
+            FacesArg::Back => Self::Back,
+        }
+    }
+}
+
+/// A clip space, as a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ClipArg {
+    /// Depth 0 to 1, y up
+    Wgpu,
+    /// Depth 1 to 0, y up
+    WgpuReversed,
+    /// Depth 0 to 1, y down
+    Vulkan,
+    /// Depth 1 to 0, y down
+    VulkanReversed,
+    /// Depth -1 to 1, y up, textures from the bottom
+    Opengl,
+    /// Depth 1 to -1, y up, textures from the bottom
+    OpenglReversed,
+}
+
+impl ClipArg {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Wgpu, Self::WgpuReversed, Self::Vulkan, Self::VulkanReversed, Self::Opengl, Self::OpenglReversed];
+}
+
+impl From<ClipArg> for ClipSpace {
+    fn from(clip: ClipArg) -> Self {
+        match clip {
+            ClipArg::Wgpu => Self::WGPU,
+            ClipArg::WgpuReversed => Self::WGPU.reversed(),
+            ClipArg::Vulkan => Self::VULKAN,
+            ClipArg::VulkanReversed => Self::VULKAN.reversed(),
+            ClipArg::Opengl => Self::OPENGL,
+            ClipArg::OpenglReversed => Self::OPENGL.reversed(),
+        }
+    }
+}
+
+/// Reads `nearest`, `hardware` or `pcfN`.
+fn parse_filter(text: &str) -> Result<Filter, String> {
+    match text {
+        "nearest" => Ok(Filter::Nearest),
+        "hardware" => Ok(Filter::Hardware),
+        _ => match text.strip_prefix("pcf").map(str::parse) {
+            Some(Ok(taps @ 2..=15)) => Ok(Filter::PercentageCloser(taps)),
+            _ => Err("write nearest, hardware, or pcfN with N from 2 to 15".into()),
+        },
+    }
+}
+
+/// Reads `STEPS,SLOPE`.
+fn parse_bias(text: &str) -> Result<Bias, String> {
+    let wrong = || format!("'{text}' should be a whole number of steps, a comma and a slope: 9,1.5");
+    let (constant, slope) = text.split_once(',').ok_or_else(wrong)?;
+    let slope = slope.trim().parse().ok().filter(|slope: &f32| slope.is_finite());
+    let constant = constant.trim().parse().map_err(|_| wrong())?;
+    Ok(Bias { constant, slope: slope.ok_or_else(wrong)? })
 }
 
 /// Reads `X,Y,Z`: three finite numbers.
@@ -144,52 +434,63 @@ mod tests {
     #[test]
     fn no_argument_is_enough() {
         let args = Args::parse_from(["render-check"]);
-        assert!(args.scene.is_none() && args.lights.is_empty() && args.eye.is_none());
-        assert_eq!((args.size, args.width, args.height), (1024, 960, 600));
+        assert!(args.command.is_none());
+        let CheckArgs { view, map, frames } = args.check;
+        assert!(view.lights.is_empty() && view.eye.is_none() && map.techniques.is_empty());
+        assert_eq!((view.scene, view.width, view.height, frames), ("chess-board".into(), 960, 600, 3));
     }
 
     #[test]
     fn negative_numbers_are_values_not_options() {
-        let args = Args::parse_from([
-            "render-check",
-            "a.glb",
-            "--eye",
-            "-1,2,-3",
-            "--target",
-            "-4,5,6",
-            "--light",
-            "sun:-1,1,0",
-            "--far",
-            "inf",
-        ]);
-        assert_eq!(args.eye, Some(DVec3::new(-1.0, 2.0, -3.0)));
-        assert_eq!(args.target, Some(DVec3::new(-4.0, 5.0, 6.0)));
-        assert_eq!(args.far, Some(f64::INFINITY));
-        assert_eq!(args.lights.len(), 1);
+        let line = "render-check a.glb --eye -1,2,-3 --target -4,5,6 --light sun:-1,1,0 --far inf --bias -2,-0.5";
+        let args = Args::parse_from(line.split_whitespace()).check;
+        assert_eq!(args.view.eye, Some(DVec3::new(-1.0, 2.0, -3.0)));
+        assert_eq!(args.view.target, Some(DVec3::new(-4.0, 5.0, 6.0)));
+        assert_eq!(args.view.far, Some(f64::INFINITY));
+        assert_eq!(args.view.lights.len(), 1);
+        assert_eq!(args.map.bias, Some(Bias { constant: -2, slope: -0.5 }));
     }
 
     #[test]
     fn every_example_in_the_help_is_a_command() {
-        let commands: Vec<_> = AFTER_HELP.lines().filter(|line| line.starts_with("  render-check")).collect();
-        assert_eq!(commands.len(), 4);
+        let commands: Vec<_> = EXAMPLES.lines().filter(|line| line.starts_with("  render-check")).collect();
+        assert_eq!(commands.len(), 7);
         for command in commands {
             Args::try_parse_from(command.split_whitespace()).expect(command);
         }
     }
 
     #[test]
+    fn maps_are_described_by_words() {
+        let line = "render-check --technique psm --technique uniform --size 256 --size 512 --format unorm16 \
+                    --faces back --filter pcf5 --clip opengl-reversed";
+        let map = Args::parse_from(line.split_whitespace()).check.map;
+        assert_eq!(map.techniques, [Technique::Psm, Technique::Uniform]);
+        assert_eq!(map.sizes, [256, 512]);
+        assert_eq!((map.format, map.faces), (FormatArg::Unorm16, FacesArg::Back));
+        assert_eq!(map.filter, Filter::PercentageCloser(5));
+        assert_eq!(ClipSpace::from(map.clip), ClipSpace::OPENGL.reversed());
+    }
+
+    #[test]
     fn wrong_values_are_refused() {
         for wrong in [
-            &["--eye", "1,2"][..],
-            &["--target", "1,2,3"],
-            &["--fov", "180"],
-            &["--near", "0"],
-            &["--far", "-3"],
-            &["--size", "1"],
-            &["--light", "sun"],
+            "--eye 1,2",
+            "--target 1,2,3",
+            "--fov 180",
+            "--near 0",
+            "--far -3",
+            "--size 1",
+            "--light sun",
+            "--filter pcf1",
+            "--filter pcf",
+            "--bias 3",
+            "--bias 1,NaN",
+            "--technique lispsm",
+            "draw --technique psm",
         ] {
-            let line = [&["render-check"], wrong].concat();
-            assert!(Args::try_parse_from(line).is_err(), "{wrong:?}");
+            let line = format!("render-check {wrong}");
+            assert!(Args::try_parse_from(line.split_whitespace()).is_err(), "{wrong:?}");
         }
     }
 }

@@ -1,137 +1,125 @@
-//! The whole check, in order: load, frame, fit, print, draw.
+//! The check of one scene: every light, with each technique and size of map, drawn on the card and held against the
+//! truth.
 
-use std::fs;
-use std::io::{Write as _, stderr, stdout};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use anyhow::{Context, Result};
-use shadowfit::{Outcome, Settings, View};
+use anyhow::{Result, ensure};
+use image::RgbImage;
+use serde::Serialize;
 
-use crate::args::Args;
-use crate::fitting::{LightFit, fit_light};
-use crate::framing::{choose_camera, choose_view};
-use crate::light::LightSpec;
-use crate::picture::{Lens, Lighting, Line, camera_view, light_lens, light_view, maps_view, save};
-use crate::progress::spinner;
-use crate::scene::{self, LoadedScene};
-use crate::table::{reason_without_map, table};
-use crate::trace::Tracer;
+use crate::args::CheckArgs;
+use crate::check_table::CheckTable;
+use crate::gpu::Gpu;
+use crate::opening::{choose_lights, open, output_directory, place_camera, say, sort};
+use crate::picture::{Lighting, aliasing_map, difference, save, shaded, stored_map};
+use crate::progress::bar;
+use crate::report::{self, CameraReport, RunReport};
+use crate::run::{MapRun, NoMap, Options, run};
+use crate::scene::Mesh;
+use crate::stage::{Stage, StageLight};
 
-/// Where the sun stands in a scene without lights.
-const DEFAULT_SUN: LightSpec = LightSpec::Sun { direction_to_light: shadowfit::glam::DVec3::new(0.5, 1.0, 0.35) };
+/// All that is known after a check.
+#[derive(Clone, Debug, Serialize)]
+pub struct CheckReport {
+    /// The scene's name.
+    pub scene: String,
+    /// What drew it.
+    pub adapter: String,
+    /// Width and height of the camera's image, in pixels.
+    pub image: [u32; 2],
+    /// The camera.
+    pub camera: CameraReport,
+    /// Every run, light by light.
+    pub runs: Vec<RunReport>,
+}
 
-/// Runs the tool.
+/// Checks a scene.
 ///
 /// # Errors
 ///
-/// When nothing sensible can be shown, with a message that says what to do.
-pub fn run(args: &Args) -> Result<()> {
-    let settings = Settings::new(args.size, args.height).context("the sizes cannot be used")?;
-    let scene = {
-        let _spinner = spinner("loading the scene");
-        scene::load(args.scene.as_deref())?
-    };
-    let (min, max) = scene.mesh.bounds();
-    say(&format!("{}: {} triangles, {min:.3} to {max:.3}", scene.name, scene.mesh.triangles.len()));
-    if !scene.left_out.is_nothing() {
-        say(&scene.left_out.to_string());
-    }
-    let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
-    fs::create_dir_all(&out)
-        .with_context(|| format!("cannot make the directory '{}'; choose another with --out", out.display()))?;
+/// When nothing can be checked, with a message that says what to do; and when a caster is missing from a map.
+pub fn check(args: &CheckArgs) -> Result<()> {
+    let gpu = Gpu::new()?;
+    let scene = open(&args.view)?;
+    let out = output_directory(&args.view, &scene)?;
+    let tracer = sort(&scene.mesh)?;
+    let (_, view) = place_camera(&args.view, &scene, &tracer)?;
+    say(&format!("drawn by {}", gpu.name()));
 
-    let tracer = {
-        let _spinner = spinner("sorting the triangles");
-        Tracer::new(&scene.mesh)?
-    };
-    let camera = choose_camera(args, &scene)?;
-    let aspect = f64::from(args.width) / f64::from(args.height);
-    let (view, warning) = choose_view(&camera, aspect, &tracer)?;
-    say(&format!(
-        "camera: eye {:.3}, forward {:.3}, field of view {:.1} degrees, near {:.4}, far {:.4}",
-        view.eye(),
-        view.forward(),
-        camera.fov_y.to_degrees(),
-        view.near(),
-        view.far()
-    ));
-    if let Some(warning) = warning {
-        complain(&format!("warning: {warning}"));
-    }
-
-    let fits = choose_lights(args, &scene)
-        .into_iter()
-        .map(|light| fit_light(light, &view, &scene.mesh, &settings))
-        .collect::<Result<Vec<_>>>()?;
-    say(&table(&fits, (min, max)).to_string());
-    for (i, fit) in fits.iter().enumerate() {
-        if let Some(reason) = reason_without_map(&fit.perspective.outcome) {
-            say(&format!("light {}: no map: {reason}", i + 1));
+    let stage = Stage::new(&gpu, &tracer, &view, [args.view.width, args.view.height])?;
+    let lights = choose_lights(&args.view, &scene);
+    let options = args.map.options(args.frames);
+    let bar = bar("checking", lights.len() * options.len());
+    let mut runs = Vec::new();
+    for (i, spec) in lights.into_iter().enumerate() {
+        let light = stage.light(spec)?;
+        let pictures = Pictures::new(&out, i + 1, &stage, &light)?;
+        let mut table = CheckTable::new();
+        for options in &options {
+            let result = run(&stage, &light, options)?;
+            match &result {
+                Ok(run) => table.add_map(options, run),
+                Err(none) => table.add_no_map(options, none),
+            }
+            pictures.of_run(options, &result)?;
+            runs.push(RunReport::new(&view, &light, options, &result));
+            bar.inc(1);
         }
+        let class = shadowfit::classify(&view, &light.light).kind;
+        let [compared, shadowed] = [light.truth.compared(), light.truth.shadowed()];
+        let title = format!("\nlight {}: {spec}, {class}; {compared} pixels compared, {shadowed} in shadow", i + 1);
+        bar.suspend(|| say(&format!("{title}\n{table}")));
     }
+    bar.finish_and_clear();
 
-    for (i, fit) in fits.iter().enumerate() {
-        for path in draw(args, &out, i + 1, fit, &view, &tracer)? {
-            say(&format!("wrote {}", path.display()));
-        }
-    }
+    let report = CheckReport {
+        scene: scene.name,
+        adapter: gpu.name().to_owned(),
+        image: stage.size,
+        camera: CameraReport::from(&view),
+        runs,
+    };
+    report::write(&report, &out.join("check.json"))?;
+    say(&format!("\nwrote check.json and the pictures to {}", out.display()));
+    let missing: usize = report.runs.iter().map(RunReport::missing).sum();
+    ensure!(
+        missing == 0,
+        "{missing} pixels are lit because a caster is missing from a map: see the magenta pixels"
+    );
     Ok(())
 }
 
-/// The lights that the arguments ask for; else the scene's own; else a sun.
-fn choose_lights(args: &Args, scene: &LoadedScene) -> Vec<LightSpec> {
-    let asked_for = [&args.lights, &scene.lights].into_iter().find(|lights| !lights.is_empty());
-    asked_for.cloned().unwrap_or_else(|| vec![DEFAULT_SUN])
-}
-
-/// Draws the pictures of one light. The maps are left out where there are none.
-fn draw(
-    args: &Args,
-    out: &Path,
+/// The pictures of one light.
+struct Pictures<'a> {
+    out: &'a Path,
     number: usize,
-    fit: &LightFit,
-    view: &View,
-    tracer: &Tracer,
-) -> Result<Vec<PathBuf>> {
-    let size = [args.width, args.height];
-    let mut written = Vec::new();
-    let mut write = |what: &str, image: &image::RgbImage| {
-        let path = out.join(format!("{number}-{}-{what}.png", fit.spec.kind()));
-        save(image, &path)?;
-        written.push(path);
-        anyhow::Ok(())
-    };
+    light: &'a StageLight,
+    mesh: &'a Mesh,
+    lighting: Lighting,
+    truth: RgbImage,
+}
 
-    let edges: Vec<Line> = fit.body.edges().collect();
-    let (min, max) = tracer.mesh().bounds();
-    let lighting = Lighting::new(fit.spec, 0.5 * (min + max));
-    write("camera", &camera_view(view, &lighting, tracer, &edges, size)?)?;
-
-    let aspect = f64::from(args.width) / f64::from(args.height);
-    let lens = light_lens(&fit.spec, view, &fit.body, tracer.mesh(), aspect)?;
-    write("light", &light_view(&lens, view, tracer, &fit.body, size))?;
-
-    let [uniform, perspective] = [map_lens(&fit.uniform.outcome)?, map_lens(&fit.perspective.outcome)?];
-    if uniform.is_some() || perspective.is_some() {
-        let maps = [("uniform", uniform.as_ref()), ("perspective", perspective.as_ref())];
-        write("maps", &maps_view(maps, args.size, tracer, &edges))?;
+impl<'a> Pictures<'a> {
+    /// Writes the true picture, too.
+    fn new(out: &'a Path, number: usize, stage: &'a Stage<'a>, light: &'a StageLight) -> Result<Self> {
+        let (min, max) = stage.tracer.mesh().bounds();
+        let lighting = Lighting::new(light.spec, 0.5 * (min + max));
+        let truth = shaded(&light.truth, &lighting, stage.tracer.mesh(), &light.truth.lit());
+        let pictures = Self { out, number, light, mesh: stage.tracer.mesh(), lighting, truth };
+        pictures.save("truth", &pictures.truth)?;
+        Ok(pictures)
     }
-    Ok(written)
-}
 
-fn map_lens(outcome: &Outcome) -> Result<Option<Lens>> {
-    match outcome {
-        Outcome::Map(map) => Lens::new(map.shadow_from_world()).map(Some),
-        _ => Ok(None),
+    fn save(&self, what: &str, image: &RgbImage) -> Result<()> {
+        save(image, &self.out.join(format!("{}-{}-{what}.png", self.number, self.light.spec.kind())))
     }
-}
 
-/// Prints a line. Nobody listening (`render-check | head`) is no reason to leave the pictures undrawn.
-fn say(line: &str) {
-    drop(writeln!(stdout(), "{line}"));
-}
-
-/// Prints a line aside from the results.
-pub fn complain(line: &str) {
-    drop(writeln!(stderr(), "{line}"));
+    fn of_run(&self, options: &Options, result: &Result<MapRun, NoMap>) -> Result<()> {
+        let Ok(run) = result else { return Ok(()) };
+        let name = format!("{}-{}", options.technique, options.map_size);
+        self.save(&format!("{name}-image"), &shaded(&self.light.truth, &self.lighting, self.mesh, &run.lit))?;
+        self.save(&format!("{name}-faults"), &difference(&self.truth, &run.verdict.marks))?;
+        self.save(&format!("{name}-map"), &stored_map(&run.map, &run.depths))?;
+        self.save(&format!("{name}-aliasing"), &aliasing_map(&self.light.truth, &run.map))
+    }
 }

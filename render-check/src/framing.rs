@@ -4,7 +4,7 @@ use anyhow::{Context, Result, bail};
 use shadowfit::View;
 use shadowfit::glam::DVec3;
 
-use crate::args::Args;
+use crate::args::ViewArgs;
 use crate::picture::Lens;
 use crate::scene::{LoadedScene, Mesh};
 use crate::trace::Tracer;
@@ -64,7 +64,12 @@ impl Camera {
         Self::looking_at(centre + distance * DEFAULT_DIRECTION_TO_EYE.normalize(), centre, fov_y)
     }
 
-    fn view(&self, aspect: f64, near: f64, far: f64) -> Result<View> {
+    /// The view of this camera between two planes.
+    ///
+    /// # Errors
+    ///
+    /// When it makes no sense.
+    pub fn view(&self, aspect: f64, near: f64, far: f64) -> Result<View> {
         View::perspective(self.eye, self.forward, self.up, self.fov_y, aspect, near, far)
             .context("the camera cannot be used")
     }
@@ -75,14 +80,13 @@ impl Camera {
 /// # Errors
 ///
 /// When the arguments contradict each other.
-pub fn choose_camera(args: &Args, scene: &LoadedScene) -> Result<Camera> {
+pub fn choose_camera(args: &ViewArgs, scene: &LoadedScene) -> Result<Camera> {
     let (min, max) = scene.mesh.bounds();
-    let aspect = f64::from(args.width) / f64::from(args.height);
     let fov_y = args.fov.unwrap_or(DEFAULT_FOV_DEGREES).to_radians();
     let mut camera = match (args.eye, scene.camera) {
         (Some(eye), _) => Camera::looking_at(eye, args.target.unwrap_or(0.5 * (min + max)), fov_y)?,
         (None, Some(camera)) => Camera { fov_y: args.fov.map_or(camera.fov_y, f64::to_radians), ..camera },
-        (None, None) => Camera::showing(min, max, fov_y, aspect)?,
+        (None, None) => Camera::showing(min, max, fov_y, args.aspect())?,
     };
     camera.near = args.near.or(camera.near);
     camera.far = args.far.or(camera.far);
@@ -160,12 +164,13 @@ mod tests {
     use clap::Parser;
 
     use super::*;
+    use crate::args::Args;
     use crate::scene::{self, MeshBuilder, Part};
     use shadowfit::glam::DMat4;
 
     fn chess_view(arguments: &[&str]) -> Result<(View, Option<String>)> {
-        let args = Args::parse_from([&["render-check"], arguments].concat());
-        let scene = scene::load(None)?;
+        let args = Args::parse_from([&["render-check"], arguments].concat()).check.view;
+        let scene = scene::load(&args.scene)?;
         let camera = choose_camera(&args, &scene)?;
         choose_view(&camera, 1.6, &Tracer::new(&scene.mesh)?)
     }
@@ -185,9 +190,9 @@ mod tests {
 
     #[test]
     fn a_camera_that_nobody_placed_shows_the_whole_scene() {
-        let mut scene = scene::load(None).expect("built in");
+        let args = Args::parse_from(["render-check"]).check.view;
+        let mut scene = scene::load(&args.scene).expect("built in");
         scene.camera = None;
-        let args = Args::parse_from(["render-check"]);
         let camera = choose_camera(&args, &scene).expect("the scene has an extent");
         let tracer = Tracer::new(&scene.mesh).expect("the scene has triangles");
         let (view, _) = choose_view(&camera, 1.6, &tracer).expect("in view");

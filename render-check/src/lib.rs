@@ -22,12 +22,22 @@
 
 pub mod args;
 pub mod check;
+pub mod check_table;
+pub mod draw;
 pub mod fitting;
+pub mod fitting_table;
 pub mod framing;
 pub mod gpu;
 pub mod light;
+pub mod opening;
 pub mod picture;
 pub mod progress;
+pub mod report;
+pub mod run;
 pub mod scene;
-pub mod table;
+pub mod stage;
+pub mod sweep;
+pub mod technique;
 pub mod trace;
+pub mod verdict;
+pub mod walk;

@@ -3,13 +3,21 @@
 use std::process::ExitCode;
 
 use clap::Parser;
-use render_check::{args::Args, check};
+use render_check::args::{Args, Command};
+use render_check::{check, draw, opening, sweep, walk};
 
 fn main() -> ExitCode {
-    match check::run(&Args::parse()) {
+    let args = Args::parse();
+    let result = match &args.command {
+        None => check::check(&args.check),
+        Some(Command::Draw(args)) => draw::draw(args),
+        Some(Command::Walk(args)) => walk::walk(args),
+        Some(Command::Sweep(args)) => sweep::sweep(args),
+    };
+    match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            check::complain(&format!("error: {error:#}"));
+            opening::complain(&format!("error: {error:#}"));
             ExitCode::FAILURE
         }
     }

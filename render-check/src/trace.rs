@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use parry3d_f64::math::Vector;
-use parry3d_f64::query::{Ray as ParryRay, RayCast};
+use parry3d_f64::query::{Ray as ParryRay, RayCast, RayCullingMode};
 use parry3d_f64::shape::TriMesh;
 use shadowfit::glam::DVec3;
 
@@ -17,6 +17,19 @@ pub struct Ray {
     pub direction: DVec3,
     /// How far it goes, in world units; may be infinite.
     pub length: f64,
+}
+
+/// Which sides of triangles a ray can meet, or a map is drawn with, as the ray or the light sees them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Faces {
+    /// Both.
+    #[default]
+    All,
+    /// Only the fronts, which are counter-clockwise as the ray sees them.
+    Front,
+    /// Only the backs.
+    Back,
 }
 
 /// Where a ray first meets the scene.
@@ -35,6 +48,16 @@ pub struct Hit {
 }
 
 impl Hit {
+    /// The ray meets a triangle of the mesh, so far along.
+    #[must_use]
+    pub fn along(ray: &Ray, distance: f64, mesh: &Mesh, triangle: usize) -> Self {
+        let point = ray.origin + distance * ray.direction;
+        let face_normal = mesh.face_normal(triangle);
+        let shading_normal = mesh.shading_normal(triangle, point).unwrap_or(face_normal);
+        let facing = if face_normal.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 };
+        Self { distance, point, triangle, face_normal, shading_normal: facing * shading_normal }
+    }
+
     /// Whether the ray met the triangle from behind.
     #[must_use]
     pub fn is_back_face(&self, ray: &Ray) -> bool {
@@ -46,8 +69,9 @@ impl Hit {
 pub struct Tracer<'a> {
     mesh: &'a Mesh,
     tree: TriMesh,
-    /// How far a ray that leaves a surface starts off it. A hit point is off by the rounding of coordinates as large
-    /// as the scene, 1e-16 of it; this is far more than that and far less than anything a picture shows.
+    /// How far a ray that leaves a surface starts off it. A point of a surface is off by a few roundings of its
+    /// coordinates, 1e-16 of the largest: this is far more than that, wherever the scene stands, and far less than
+    /// anything a picture of the scene shows.
     surface_offset: f64,
 }
 
@@ -61,8 +85,8 @@ impl<'a> Tracer<'a> {
         let vertices = mesh.vertices.iter().map(|&v| to_parry(v)).collect();
         let tree = TriMesh::new(vertices, mesh.triangles.clone()).context("the scene cannot be ray-cast")?;
         let (min, max) = mesh.bounds();
-        let reach = min.abs().max(max.abs()).max_element();
-        Ok(Self { mesh, tree, surface_offset: 1e-9 * reach })
+        let largest = min.abs().max(max.abs()).max_element();
+        Ok(Self { mesh, tree, surface_offset: 1e-9 * (max - min).length() + 1e-12 * largest })
     }
 
     /// The triangles that the rays are cast at.
@@ -74,20 +98,32 @@ impl<'a> Tracer<'a> {
     /// The first triangle along the ray, from either side.
     #[must_use]
     pub fn first_hit(&self, ray: &Ray) -> Option<Hit> {
-        let parry_ray = ParryRay::new(to_parry(ray.origin), to_parry(ray.direction));
-        let found = self.tree.cast_local_ray_and_get_normal(&parry_ray, ray.length, false)?;
-        let triangle = found.subshape as usize;
-        let point = ray.origin + found.time_of_impact * ray.direction;
-        let face_normal = self.mesh.face_normal(triangle);
-        let shading_normal = self.mesh.shading_normal(triangle, point).unwrap_or(face_normal);
-        let facing = if face_normal.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 };
-        Some(Hit {
-            distance: found.time_of_impact,
-            point,
-            triangle,
-            face_normal,
-            shading_normal: facing * shading_normal,
-        })
+        self.first_hit_of(ray, Faces::All)
+    }
+
+    /// The first triangle along the ray that shows it one of these sides.
+    #[must_use]
+    pub fn first_hit_of(&self, ray: &Ray, faces: Faces) -> Option<Hit> {
+        let culled = |mode| self.tree.cast_local_ray_with_culling(&ray_to_parry(ray), ray.length, mode);
+        let found = match faces {
+            Faces::All => self.tree.cast_local_ray_and_get_normal(&ray_to_parry(ray), ray.length, false),
+            Faces::Front => culled(RayCullingMode::IgnoreBackfaces),
+            Faces::Back => culled(RayCullingMode::IgnoreFrontfaces),
+        }?;
+        Some(Hit::along(ray, found.time_of_impact, self.mesh, found.subshape as usize))
+    }
+
+    /// Whether the ray meets any triangle, from either side.
+    #[must_use]
+    pub fn is_blocked(&self, ray: &Ray) -> bool {
+        self.tree.cast_local_ray(&ray_to_parry(ray), ray.length, false).is_some()
+    }
+
+    /// Where a ray starts that leaves a surface at `point`: a hair off it, along the face's unit normal on the side that
+    /// the ray leaves from, so that it meets neither the triangle it starts on nor one that lies in the same plane.
+    #[must_use]
+    pub fn off_surface(&self, point: DVec3, normal: DVec3) -> DVec3 {
+        point + self.surface_offset * normal
     }
 
     /// Whether anything stands between a surface point that `viewed_from` has seen and a light, `distance` away in
@@ -95,13 +131,45 @@ impl<'a> Tracer<'a> {
     #[must_use]
     pub fn is_shadowed(&self, hit: &Hit, viewed_from: &Ray, direction_to_light: DVec3, distance: f64) -> bool {
         let side = if hit.is_back_face(viewed_from) { -1.0 } else { 1.0 };
-        let origin = hit.point + side * self.surface_offset * hit.face_normal;
-        let ray = ParryRay::new(to_parry(origin), to_parry(direction_to_light));
-        self.tree.cast_local_ray(&ray, distance, false).is_some()
+        let origin = self.off_surface(hit.point, side * hit.face_normal);
+        self.is_blocked(&Ray { origin, direction: direction_to_light, length: distance })
     }
+}
+
+fn ray_to_parry(ray: &Ray) -> ParryRay {
+    ParryRay::new(to_parry(ray.origin), to_parry(ray.direction))
 }
 
 /// parry3d has a `glam` of its own, so vectors cross over as numbers.
 fn to_parry(v: DVec3) -> Vector {
     Vector::new(v.x, v.y, v.z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{MeshBuilder, Part};
+    use shadowfit::glam::DMat4;
+
+    /// Two squares across the z axis: the upper one, at z = 0, with its front up, the lower one, at −1, with its back.
+    fn two_squares() -> Mesh {
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
+        let part = Part { positions: &corners, normals: &[], triangles: &[[0, 1, 2], [0, 2, 3]], colour: [1.0; 3] };
+        let mut builder = MeshBuilder::default();
+        builder.add(&part, DMat4::IDENTITY);
+        builder.add(&part, DMat4::from_translation(DVec3::NEG_Z) * DMat4::from_rotation_x(std::f64::consts::PI));
+        builder.finish().0
+    }
+
+    #[test]
+    fn a_ray_meets_only_the_sides_it_is_asked_for() {
+        let mesh = two_squares();
+        let tracer = Tracer::new(&mesh).expect("it has triangles");
+        let down = Ray { origin: DVec3::new(0.3, 0.1, 2.0), direction: DVec3::NEG_Z, length: f64::INFINITY };
+        let distance = |faces| tracer.first_hit_of(&down, faces).map(|hit| hit.distance);
+        assert_eq!([Faces::All, Faces::Front, Faces::Back].map(distance), [Some(2.0), Some(2.0), Some(3.0)]);
+        let short = Ray { length: 2.5, ..down };
+        assert!(tracer.first_hit_of(&short, Faces::Back).is_none() && tracer.is_blocked(&short));
+        assert!(!tracer.is_blocked(&Ray { length: 1.5, ..down }));
+    }
 }

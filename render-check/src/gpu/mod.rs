@@ -19,6 +19,9 @@ mod surfaces;
 
 pub use device::Gpu;
 pub use geometry::Geometry;
-pub use shadow_map::{Bias, Faces, MapPass, ShadowMap};
+pub use shadow_map::{Bias, MapPass, ShadowMap};
 pub use shadow_test::{Filter, Shadows, shadow_test};
 pub use surfaces::Surfaces;
+
+#[cfg(test)]
+mod tests;

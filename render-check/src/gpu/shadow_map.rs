@@ -9,19 +9,7 @@ use shadowfit::{ClipSpace, DepthFormat, DepthRange, Map, YAxis};
 
 use super::pass::{Pass, PipelineKind, depth_state};
 use super::{Geometry, Gpu, read_back, shaders};
-
-/// Which sides of triangles are drawn, as the light sees them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Faces {
-    /// Both.
-    #[default]
-    All,
-    /// Only those that face the light.
-    Front,
-    /// Only those that face away from it: for solids, whose own front faces then cannot shadow themselves.
-    Back,
-}
+use crate::trace::Faces;
 
 /// What the rasteriser adds to depth, away from the light.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]

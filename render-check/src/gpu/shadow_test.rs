@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use anyhow::Result;
 use shadowfit::glam::{Mat4, Vec3};
-use shadowfit::{ClipSpace, TextureOrigin};
+use shadowfit::{ClipSpace, TextureOrigin, YAxis};
 
 use super::pass::{Pass, PipelineKind};
 use super::{Gpu, ShadowMap, Surfaces, read_back, shaders};
@@ -113,10 +113,13 @@ fn shadow_test_unguarded(
 }
 
 /// From an API that counts texture rows from the bottom to wgpu, which counts them from the top: there the same row of
-/// the map is read at 1 − v.
+/// the map is read at 1 − v. An image that such an API draws with y down is upside down in its memory, where the first
+/// row then is the top one, as in wgpu's.
 fn sampled_from_texture(clip: ClipSpace) -> Mat4 {
-    match clip.texture_origin {
-        TextureOrigin::TopLeft => Mat4::IDENTITY,
-        TextureOrigin::BottomLeft => Mat4::from_translation(Vec3::Y) * Mat4::from_scale(Vec3::new(1.0, -1.0, 1.0)),
+    match (clip.y, clip.texture_origin) {
+        (YAxis::Up, TextureOrigin::BottomLeft) => {
+            Mat4::from_translation(Vec3::Y) * Mat4::from_scale(Vec3::new(1.0, -1.0, 1.0))
+        }
+        _ => Mat4::IDENTITY,
     }
 }

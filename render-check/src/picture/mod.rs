@@ -7,6 +7,7 @@ mod lines;
 mod map_view;
 mod shade;
 mod text;
+mod verdict_view;
 mod view;
 
 pub use canvas::{Canvas, Colour, Sample, save};
@@ -15,6 +16,7 @@ pub use light_view::{light_lens, light_view};
 pub use lines::{Line, Pen, draw_lines};
 pub use map_view::{DepthMap, TitledMap, maps_view};
 pub use shade::Lighting;
+pub use verdict_view::{aliasing_map, difference, shaded, stored_map};
 pub use view::camera_view;
 
 /// The focus body's edges.

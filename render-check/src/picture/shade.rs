@@ -4,6 +4,7 @@ use shadowfit::glam::{DVec3, FloatExt};
 
 use super::canvas::{Colour, mix};
 use crate::light::LightSpec;
+use crate::scene::Mesh;
 use crate::trace::{Hit, Ray, Tracer};
 
 /// How a light falls on surfaces.
@@ -25,16 +26,31 @@ impl Lighting {
     /// Lambert's law with a ray-traced shadow, over a soft light from the sky that nothing shadows.
     #[must_use]
     pub fn shade(&self, tracer: &Tracer, hit: &Hit, ray: &Ray) -> Colour {
-        let base = tracer.mesh().colours[hit.triangle];
+        self.shade_by(tracer.mesh(), hit, ray, |direction_to_light, distance| {
+            if tracer.is_shadowed(hit, ray, direction_to_light, distance) { 0.0 } else { 1.0 }
+        })
+    }
+
+    /// The same with shadows from elsewhere: `lit` is asked which share of the light arrives, 0 to 1, given the
+    /// direction towards the light and its distance; it is not asked where there is no light to shadow.
+    #[must_use]
+    pub(super) fn shade_by(
+        &self,
+        mesh: &Mesh,
+        hit: &Hit,
+        ray: &Ray,
+        lit: impl FnOnce(DVec3, f64) -> f64,
+    ) -> Colour {
+        let base = mesh.colours[hit.triangle];
         let normal = hit.shading_normal;
         let sky = 0.13 + 0.07 * normal.y + 0.06 * normal.dot(-ray.direction).max(0.0);
-        let direct = 0.95 * self.direct(tracer, hit, ray);
+        let direct = 0.95 * self.direct(hit, ray, lit);
         let light = [sky + direct, sky + 0.94 * direct, 1.2 * sky + 0.84 * direct];
         [0, 1, 2].map(|i| base[i] * light[i] as f32)
     }
 
     /// What arrives from the light itself: 1 where a surface faces it, unshadowed and at the full distance.
-    fn direct(&self, tracer: &Tracer, hit: &Hit, ray: &Ray) -> f64 {
+    fn direct(&self, hit: &Hit, ray: &Ray, lit: impl FnOnce(DVec3, f64) -> f64) -> f64 {
         let (direction_to_light, distance) = match self.light.position() {
             Some(position) => ((position - hit.point).normalize_or(DVec3::Y), position.distance(hit.point)),
             None => (self.sun_direction(), f64::INFINITY),
@@ -46,10 +62,7 @@ impl Lighting {
         if cosine <= 0.0 || side * hit.face_normal.dot(direction_to_light) <= 0.0 || strength <= 0.0 {
             return 0.0;
         }
-        if tracer.is_shadowed(hit, ray, direction_to_light, distance) {
-            return 0.0;
-        }
-        cosine * strength
+        cosine * strength * lit(direction_to_light, distance)
     }
 
     fn sun_direction(&self) -> DVec3 {

@@ -76,14 +76,18 @@ impl fmt::Display for LeftOut {
 /// # Errors
 ///
 /// When the file cannot be read, is not sound glTF, or has no triangles.
-pub fn load(path: Option<&Path>) -> Result<LoadedScene> {
-    let scene = match path {
-        Some(path) => glb::load(path)?,
-        None => chess_board::make(),
-    };
+pub fn load(path: &Path) -> Result<LoadedScene> {
+    let scene = if path == Path::new("chess-board") { chess_board::make() } else { glb::load(path)? };
     if scene.mesh.triangles.is_empty() {
         let left_out = if scene.left_out.is_nothing() { String::new() } else { format!(" ({})", scene.left_out) };
         bail!("the scene '{}' has no triangles to cast or receive a shadow{left_out}", scene.name);
     }
     Ok(scene)
+}
+
+impl LoadedScene {
+    #[must_use]
+    pub fn moved(&self, _scale: f64, _offset: shadowfit::glam::DVec3) -> Self {
+        self.clone()
+    }
 }

@@ -80,7 +80,7 @@ fn body(fit: &LightFit, (min, max): (DVec3, DVec3)) -> String {
 }
 
 /// A number with three digits that matter.
-fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let digits =
         if value.abs() >= 1.0 && value.is_finite() { (2.0 - value.abs().log10().floor()).max(0.0) } else { 3.0 };
     format!("{value:.*}", digits as usize)

@@ -1,0 +1,93 @@
+//! What is printed of a check: a row for each map of a light.
+
+use std::fmt;
+
+use comfy_table::presets::UTF8_FULL_CONDENSED;
+use comfy_table::{CellAlignment, ContentArrangement, Table};
+
+use crate::fitting_table::number;
+use crate::run::{MapRun, NoMap, Options};
+use crate::verdict::{Cluster, Fault};
+
+/// The rows of one light.
+pub struct CheckTable {
+    table: Table,
+    /// Why there is no map, for those that have none.
+    reasons: Vec<String>,
+}
+
+const COLUMNS: [&str; 10] =
+    ["map", "drawn", "aliasing", "missing", "false", "edge", "worst", "fit", "map pass", "test"];
+
+impl CheckTable {
+    /// No rows yet.
+    #[must_use]
+    pub fn new() -> Self {
+        let mut table = Table::new();
+        table
+            .load_style(UTF8_FULL_CONDENSED)
+            .set_content_arrangement(ContentArrangement::Disabled)
+            .set_header(COLUMNS);
+        for column in table.column_iter_mut().skip(1) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+        Self { table, reasons: Vec::new() }
+    }
+
+    /// A row for a map.
+    pub fn add_map(&mut self, options: &Options, run: &MapRun) {
+        let counts = &run.verdict.counts;
+        let percent = |count: usize| format!("{} %", number(100.0 * counts.fraction(count)));
+        let milliseconds = |time: Option<f64>| time.map_or_else(|| "-".into(), |ms| format!("{ms:.2} ms"));
+        self.table.add_row([
+            name(options),
+            format!("{:.0} %", 100.0 * run.drawn.triangles as f64 / run.drawn.of_triangles as f64),
+            run.verdict.aliasing.map_or_else(
+                || "-".into(),
+                |aliasing| format!("{}, {}", number(aliasing.worst), number(aliasing.median)),
+            ),
+            counts.missing.to_string(),
+            format!("{}, {}", percent(counts.false_shadow), percent(counts.false_light)),
+            percent(counts.edges()),
+            run.verdict.worst_cluster.as_ref().map_or_else(|| "-".into(), place),
+            format!("{:.1} µs", run.times.fit_us),
+            milliseconds(run.times.shadow_map_ms),
+            milliseconds(run.times.shadow_test_ms),
+        ]);
+    }
+
+    /// A row for none.
+    pub fn add_no_map(&mut self, options: &Options, none: &NoMap) {
+        let mut row = vec![name(options)];
+        row.resize(COLUMNS.len(), "-".into());
+        self.table.add_row(row);
+        self.reasons.push(format!("{}: no map: {none}", name(options)));
+    }
+}
+
+impl Default for CheckTable {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl fmt::Display for CheckTable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.table.fmt(f)?;
+        self.reasons.iter().try_for_each(|reason| write!(f, "\n{reason}"))
+    }
+}
+
+fn name(options: &Options) -> String {
+    format!("{} {}", options.technique, options.map_size)
+}
+
+fn place(cluster: &Cluster) -> String {
+    let fault = match cluster.fault {
+        Fault::FalseShadow => "shadow",
+        Fault::FalseLight => "light",
+        Fault::Missing => "missing",
+    };
+    let [x, y] = cluster.centre;
+    format!("{} {fault} at {x},{y}", cluster.pixels)
+}

@@ -1,0 +1,85 @@
+//! The fit and its pictures, by ray casting: load, frame, fit, print, draw.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use shadowfit::{Outcome, Settings, View};
+
+use crate::args::DrawArgs;
+use crate::fitting::{LightFit, fit_light};
+use crate::fitting_table::{reason_without_map, table};
+use crate::opening::{choose_lights, open, output_directory, place_camera, say, sort};
+use crate::picture::{Lens, Lighting, Line, camera_view, light_lens, light_view, maps_view, save};
+use crate::trace::Tracer;
+
+/// Fits and draws every light of a scene.
+///
+/// # Errors
+///
+/// When nothing sensible can be shown, with a message that says what to do.
+pub fn draw(args: &DrawArgs) -> Result<()> {
+    let settings = Settings::new(args.size, args.view.height).context("the sizes cannot be used")?;
+    let scene = open(&args.view)?;
+    let out = output_directory(&args.view, &scene)?;
+    let tracer = sort(&scene.mesh)?;
+    let (_, view) = place_camera(&args.view, &scene, &tracer)?;
+
+    let fits = choose_lights(&args.view, &scene)
+        .into_iter()
+        .map(|light| fit_light(light, &view, &scene.mesh, &settings))
+        .collect::<Result<Vec<_>>>()?;
+    say(&table(&fits, scene.mesh.bounds()).to_string());
+    for (i, fit) in fits.iter().enumerate() {
+        if let Some(reason) = reason_without_map(&fit.perspective.outcome) {
+            say(&format!("light {}: no map: {reason}", i + 1));
+        }
+    }
+
+    for (i, fit) in fits.iter().enumerate() {
+        for path in draw_light(args, &out, i + 1, fit, &view, &tracer)? {
+            say(&format!("wrote {}", path.display()));
+        }
+    }
+    Ok(())
+}
+
+/// Draws the pictures of one light. The maps are left out where there are none.
+fn draw_light(
+    args: &DrawArgs,
+    out: &Path,
+    number: usize,
+    fit: &LightFit,
+    view: &View,
+    tracer: &Tracer,
+) -> Result<Vec<PathBuf>> {
+    let size = [args.view.width, args.view.height];
+    let mut written = Vec::new();
+    let mut write = |what: &str, image: &image::RgbImage| {
+        let path = out.join(format!("{number}-{}-{what}.png", fit.spec.kind()));
+        save(image, &path)?;
+        written.push(path);
+        anyhow::Ok(())
+    };
+
+    let edges: Vec<Line> = fit.body.edges().collect();
+    let (min, max) = tracer.mesh().bounds();
+    let lighting = Lighting::new(fit.spec, 0.5 * (min + max));
+    write("camera", &camera_view(view, &lighting, tracer, &edges, size)?)?;
+
+    let lens = light_lens(&fit.spec, view, &fit.body, tracer.mesh(), args.view.aspect())?;
+    write("light", &light_view(&lens, view, tracer, &fit.body, size))?;
+
+    let [uniform, perspective] = [map_lens(&fit.uniform.outcome)?, map_lens(&fit.perspective.outcome)?];
+    if uniform.is_some() || perspective.is_some() {
+        let maps = [("uniform", uniform.as_ref()), ("perspective", perspective.as_ref())];
+        write("maps", &maps_view(maps, args.size, tracer, &edges))?;
+    }
+    Ok(written)
+}
+
+fn map_lens(outcome: &Outcome) -> Result<Option<Lens>> {
+    match outcome {
+        Outcome::Map(map) => Lens::new(map.shadow_from_world()).map(Some),
+        _ => Ok(None),
+    }
+}

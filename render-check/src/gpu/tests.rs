@@ -1,0 +1,130 @@
+//! What the card draws, against rays.
+
+use shadowfit::glam::DVec3;
+use shadowfit::{ClipSpace, DepthFormat, Light, Map, Origin, Scene, Settings, View, fit};
+
+use super::*;
+use crate::picture::{DepthMap, Lens};
+use crate::scene::{self, Mesh};
+use crate::trace::{Faces, Tracer};
+
+const IMAGE: [u32; 2] = [160, 100];
+const MAP: u32 = 128;
+
+struct Stage {
+    gpu: Gpu,
+    mesh: Mesh,
+    view: View,
+    map: Map,
+}
+
+/// The chess board under its sun.
+fn stage(clip: ClipSpace) -> Stage {
+    let mesh = scene::load("chess-board".as_ref()).expect("built in").mesh;
+    let (eye, forward) = (DVec3::new(0.9, 2.1, 2.6), DVec3::new(-1.0, -2.0, -7.0));
+    let view = View::perspective(eye, forward, DVec3::Y, 0.73, 1.6, 1.0, 28.0).expect("sound");
+    let light = Light::directional(DVec3::new(-0.8, 0.6, 0.2)).expect("sound");
+    let (min, max) = mesh.bounds();
+    let scene = Scene::from_box(min, max).expect("sound");
+    let settings = Settings::new(MAP, IMAGE[1]).expect("sound").with_origin(Origin::Eye).with_clip(clip);
+    let map = *fit(&view, &light, &scene, &settings).map().expect("one map does");
+    Stage { gpu: Gpu::new().expect("an adapter"), mesh, view, map }
+}
+
+fn draw_all(stage: &Stage, format: DepthFormat, bias: Bias) -> (Geometry, ShadowMap) {
+    let geometry = Geometry::upload(&stage.gpu, &stage.mesh, stage.view.eye()).expect("it fits");
+    let options = MapPass { format, faces: Faces::All, bias };
+    let all = 0..stage.mesh.triangles.len() as u32;
+    let shadow_map = ShadowMap::draw(&stage.gpu, &geometry, &[all], &stage.map, &options).expect("drawn");
+    (geometry, shadow_map)
+}
+
+#[test]
+fn the_camera_sees_the_triangles_that_rays_meet() {
+    let Stage { gpu, mesh, view, .. } = stage(ClipSpace::WGPU);
+    let geometry = Geometry::upload(&gpu, &mesh, view.eye()).expect("it fits");
+    let surfaces = Surfaces::draw(&gpu, &geometry, &view, IMAGE).expect("drawn");
+    let tracer = Tracer::new(&mesh).expect("it has triangles");
+    let lens = Lens::of_view(&view).expect("invertible");
+    let [width, height] = IMAGE;
+    let same = (0..height)
+        .flat_map(|y| (0..width).map(move |x| (x, y)))
+        .zip(&surfaces.triangles)
+        .filter(|((x, y), drawn)| {
+            let ray = lens.ray_through_pixel(*x, *y, width, height).expect("in front");
+            tracer.first_hit(&ray).map_or(Surfaces::SKY, |hit| hit.triangle as u32) == **drawn
+        })
+        .count();
+    // Pixels whose middle lies on an edge may go either way.
+    let all = (width * height) as usize;
+    assert!(same * 200 >= all * 199, "{same} of {all} pixels");
+}
+
+#[test]
+fn every_format_holds_the_depths_that_rays_find_in_every_convention() {
+    for clip in [ClipSpace::WGPU, ClipSpace::WGPU.reversed(), ClipSpace::VULKAN, ClipSpace::OPENGL.reversed()] {
+        let stage = stage(clip);
+        let tracer = Tracer::new(&stage.mesh).expect("it has triangles");
+        let lens = Lens::new(stage.map.shadow_from_world_in(ClipSpace::WGPU)).expect("invertible");
+        let cast = DepthMap::cast(&lens, MAP, &tracer).depths;
+        for format in [DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32] {
+            let (_, shadow_map) = draw_all(&stage, format, Bias::NONE);
+            let drawn = shadow_map.depths(&stage.gpu).expect("readable");
+            let unreversed = drawn.iter().map(|&d| if clip.depth.is_reversed() { 1.0 - d } else { d });
+            let close = unreversed.zip(&cast).filter(|(a, b)| (a - *b).abs() < 1e-3).count();
+            assert!(close * 200 >= cast.len() * 199, "{close} of {} in {format:?}, {clip:?}", cast.len());
+        }
+    }
+}
+
+#[test]
+fn conventions_and_formats_make_no_difference_to_shadows() {
+    let bias = Bias { constant: 4, slope: 2.0 };
+    let reference = {
+        let stage = stage(ClipSpace::WGPU);
+        let (geometry, shadow_map) = draw_all(&stage, DepthFormat::Float32, bias);
+        let surfaces = Surfaces::draw(&stage.gpu, &geometry, &stage.view, IMAGE).expect("drawn");
+        shadow_test(&stage.gpu, &surfaces, &shadow_map, Filter::Nearest).expect("tested").lit
+    };
+    let shadowed = reference.iter().filter(|&&lit| lit < 0.5).count();
+    assert!(shadowed * 20 > reference.len(), "{shadowed} of {} pixels in shadow", reference.len());
+    let opengl_y_down = ClipSpace { y: shadowfit::YAxis::Down, ..ClipSpace::OPENGL };
+    for clip in [ClipSpace::WGPU, ClipSpace::VULKAN, ClipSpace::OPENGL, opengl_y_down] {
+        for clip in [clip, clip.reversed()] {
+            let stage = stage(clip);
+            for format in [DepthFormat::Unorm16, DepthFormat::Float32] {
+                let (geometry, shadow_map) = draw_all(&stage, format, bias);
+                let surfaces = Surfaces::draw(&stage.gpu, &geometry, &stage.view, IMAGE).expect("drawn");
+                let lit = shadow_test(&stage.gpu, &surfaces, &shadow_map, Filter::Nearest).expect("tested").lit;
+                let different = lit.iter().zip(&reference).filter(|(a, b)| a != b).count();
+                assert!(different * 300 < lit.len(), "{different} pixels differ with {clip:?}, {format:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_wider_filter_blends_more() {
+    let stage = stage(ClipSpace::WGPU);
+    let (geometry, shadow_map) = draw_all(&stage, DepthFormat::Float32, Bias { constant: 4, slope: 8.0 });
+    let surfaces = Surfaces::draw(&stage.gpu, &geometry, &stage.view, IMAGE).expect("drawn");
+    let blended = |filter| {
+        let lit = shadow_test(&stage.gpu, &surfaces, &shadow_map, filter).expect("tested").lit;
+        lit.iter().filter(|&&lit| lit > 0.0 && lit < 1.0).count()
+    };
+    let [nearest, hardware, three, five] =
+        [Filter::Nearest, Filter::Hardware, Filter::PercentageCloser(3), Filter::PercentageCloser(5)].map(blended);
+    assert!(
+        nearest == 0 && 0 < hardware && hardware < three && three < five,
+        "{nearest} {hardware} {three} {five}"
+    );
+}
+
+#[test]
+fn what_the_card_cannot_hold_is_an_error() {
+    let Stage { gpu, mesh, view, .. } = stage(ClipSpace::WGPU);
+    let geometry = Geometry::upload(&gpu, &mesh, view.eye()).expect("it fits");
+    let too_wide = gpu.largest_texture() + 1;
+    let error = Surfaces::draw(&gpu, &geometry, &view, [too_wide, 1]).err().expect("too wide");
+    assert!(format!("{error:#}").contains("the camera's view"), "{error:#}");
+}

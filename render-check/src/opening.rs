@@ -1,0 +1,107 @@
+//! What every command begins with: a scene, loaded, and a camera before it.
+
+use std::fs;
+use std::io::{Write as _, stderr, stdout};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use shadowfit::View;
+use shadowfit::glam::DVec3;
+
+use crate::args::ViewArgs;
+use crate::framing::{Camera, choose_camera, choose_view};
+use crate::light::LightSpec;
+use crate::progress::spinner;
+use crate::scene::{self, LoadedScene, Mesh};
+use crate::trace::Tracer;
+
+/// Where the sun stands in a scene without lights.
+const DEFAULT_SUN: LightSpec = LightSpec::Sun { direction_to_light: DVec3::new(0.5, 1.0, 0.35) };
+
+/// Loads the scene that the arguments name, and says what it is.
+///
+/// # Errors
+///
+/// When it cannot be used.
+pub fn open(args: &ViewArgs) -> Result<LoadedScene> {
+    let scene = {
+        let _spinner = spinner("loading the scene");
+        scene::load(&args.scene)?
+    };
+    let (min, max) = scene.mesh.bounds();
+    say(&format!("{}: {} triangles, {min:.3} to {max:.3}", scene.name, scene.mesh.triangles.len()));
+    if !scene.left_out.is_nothing() {
+        say(&scene.left_out.to_string());
+    }
+    Ok(scene)
+}
+
+/// The directory for what is written, made where it is missing.
+///
+/// # Errors
+///
+/// When it cannot be made.
+pub fn output_directory(args: &ViewArgs, scene: &LoadedScene) -> Result<PathBuf> {
+    let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
+    make_directory(&out)?;
+    Ok(out)
+}
+
+/// Makes a directory where it is missing.
+///
+/// # Errors
+///
+/// When it cannot be made.
+pub fn make_directory(out: &Path) -> Result<()> {
+    fs::create_dir_all(out)
+        .with_context(|| format!("cannot make the directory '{}'; choose another with --out", out.display()))
+}
+
+/// Sorts the triangles, so that rays find them fast.
+///
+/// # Errors
+///
+/// When there are none.
+pub fn sort(mesh: &Mesh) -> Result<Tracer<'_>> {
+    let _spinner = spinner("sorting the triangles");
+    Tracer::new(mesh)
+}
+
+/// The camera that the arguments ask for and its view; says what it is.
+///
+/// # Errors
+///
+/// When it makes no sense or shows nothing.
+pub fn place_camera(args: &ViewArgs, scene: &LoadedScene, tracer: &Tracer<'_>) -> Result<(Camera, View)> {
+    let camera = choose_camera(args, scene)?;
+    let (view, warning) = choose_view(&camera, args.aspect(), tracer)?;
+    say(&format!(
+        "camera: eye {:.3}, forward {:.3}, field of view {:.1} degrees, near {:.4}, far {:.4}",
+        view.eye(),
+        view.forward(),
+        camera.fov_y.to_degrees(),
+        view.near(),
+        view.far()
+    ));
+    if let Some(warning) = warning {
+        complain(&format!("warning: {warning}"));
+    }
+    Ok((camera, view))
+}
+
+/// The lights that the arguments ask for; else the scene's own; else a sun.
+#[must_use]
+pub fn choose_lights(args: &ViewArgs, scene: &LoadedScene) -> Vec<LightSpec> {
+    let asked_for = [&args.lights, &scene.lights].into_iter().find(|lights| !lights.is_empty());
+    asked_for.cloned().unwrap_or_else(|| vec![DEFAULT_SUN])
+}
+
+/// Prints a line. Nobody listening (`render-check | head`) is no reason to leave the work undone.
+pub fn say(line: &str) {
+    drop(writeln!(stdout(), "{line}"));
+}
+
+/// Prints a line aside from the results.
+pub fn complain(line: &str) {
+    drop(writeln!(stderr(), "{line}"));
+}

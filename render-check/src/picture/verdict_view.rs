@@ -1,0 +1,135 @@
+//! Pictures of a comparison: what was rendered, what is true, where the two differ, and how coarse the map is.
+//!
+//! A sample is a pixel here, so that a picture shows just what was compared.
+
+use image::{Rgb, RgbImage};
+use shadowfit::Map;
+
+use super::canvas::{Colour, encode, mix};
+use super::map_view::DepthMap;
+use super::shade::{Lighting, background};
+use super::text;
+use crate::scene::Mesh;
+use crate::trace::{Hit, Ray};
+use crate::verdict::{Mark, Truth, TruthImage};
+
+/// The scene as it looks with so much light in each pixel: as it was rendered, or as it is with [`TruthImage::lit`].
+///
+/// `lit` is the share of the light that arrives, 0 to 1, row by row from the top; pixels beyond its end are dark. Where
+/// the light does not reach a surface, whatever stands where, it plays no part. `mesh` is the one that was traced.
+#[must_use]
+pub fn shaded(truth: &TruthImage, lighting: &Lighting, mesh: &Mesh, lit: &[f32]) -> RgbImage {
+    let eye = truth.view().eye();
+    picture(truth.size(), |index, height| match &truth.pixels()[index] {
+        Truth::Sky => background(height),
+        Truth::Seen(surface, _) => {
+            let ray = Ray {
+                origin: eye,
+                direction: (surface.point - eye).normalize_or(truth.view().forward()),
+                length: surface.point.distance(eye),
+            };
+            let hit = Hit::along(&ray, ray.length, mesh, surface.triangle);
+            lighting.shade_by(mesh, &hit, &ray, |_, _| lit.get(index).copied().map_or(0.0, f64::from))
+        }
+    })
+}
+
+/// Where the two differ: the pixels' marks in colours, over the true picture in dim greys.
+///
+/// `true_picture` is what [`shaded`] makes of the truth; `marks` go row by row from the top.
+#[must_use]
+pub fn difference(true_picture: &RgbImage, marks: &[Mark]) -> RgbImage {
+    let (width, height) = true_picture.dimensions();
+    let mut image = picture([width, height], |index, _| {
+        let [r, g, b] = true_picture.get_pixel(index as u32 % width, index as u32 / width).0;
+        let grey = (0.2126 * f32::from(r) + 0.7152 * f32::from(g) + 0.0722 * f32::from(b)) / 255.0;
+        let ground = [DIM * grey * grey; 3];
+        marks.get(index).and_then(|mark| colour_of(*mark)).unwrap_or(ground)
+    });
+    let legend = [
+        ("false shadow ", Mark::FalseShadow),
+        ("false light ", Mark::FalseLight),
+        ("missing caster ", Mark::Missing),
+        ("edge", Mark::EdgeTexel),
+    ];
+    let parts = legend.map(|(what, mark)| (what, Rgb(colour_of(mark).unwrap_or(TEXT).map(encode))));
+    text::caption(&mut image, &parts);
+    image
+}
+
+/// How bright the greys of the true picture are under the marks, at most.
+const DIM: f32 = 0.16;
+
+const TEXT: Colour = [0.75, 0.75, 0.72];
+
+fn colour_of(mark: Mark) -> Option<Colour> {
+    match mark {
+        Mark::Sky | Mark::Unlit | Mark::Right => None,
+        Mark::FalseShadow => Some([1.0, 0.03, 0.02]),
+        Mark::FalseLight => Some([0.06, 0.30, 1.0]),
+        Mark::Missing => Some([1.0, 0.0, 0.8]),
+        Mark::EdgeTexel | Mark::EdgePixel => Some([0.33, 0.17, 0.01]),
+    }
+}
+
+/// How much larger a texel is than a pixel: blue where it is smaller, pale where it is as large, yellow to red where it is
+/// larger. Pixels that are not compared are dark.
+#[must_use]
+pub fn aliasing_map(truth: &TruthImage, map: &Map) -> RgbImage {
+    let mut image = picture(truth.size(), |index, _| match truth.pixels()[index].compared() {
+        Some((surface, _)) => ramp(map.aliasing(surface.point).unwrap_or(f64::INFINITY)),
+        None => NOT_COMPARED,
+    });
+    let scale = ["1/8 ", "1/4 ", "1/2 ", "1 ", "2 ", "4 ", "8 ", "16 ", "32 ", "64"];
+    let mut parts = vec![("texel / pixel: ", Rgb(TEXT.map(encode)))];
+    parts.extend(
+        scale.iter().zip(LEAST_LOG2..).map(|(&text, log2)| (text, Rgb(ramp(2_f64.powi(log2)).map(encode)))),
+    );
+    text::caption(&mut image, &parts);
+    image
+}
+
+const NOT_COMPARED: Colour = [0.012, 0.013, 0.016];
+
+/// The logarithm of the aliasing at the ramp's lower end.
+const LEAST_LOG2: i32 = -3;
+
+/// The colours of aliasing, a power of two apart; below and above they stay the same.
+const RAMP: [Colour; 10] = [
+    [0.02, 0.04, 0.45],
+    [0.03, 0.14, 0.75],
+    [0.10, 0.42, 0.85],
+    [0.75, 0.85, 0.80],
+    [0.90, 0.75, 0.15],
+    [0.95, 0.42, 0.03],
+    [0.85, 0.14, 0.02],
+    [0.55, 0.02, 0.03],
+    [0.28, 0.01, 0.12],
+    [0.12, 0.01, 0.16],
+];
+
+fn ramp(aliasing: f64) -> Colour {
+    let step = (aliasing.log2() - f64::from(LEAST_LOG2)).clamp(0.0, RAMP.len() as f64 - 1.0);
+    let lower = (step as usize).min(RAMP.len() - 2);
+    mix(RAMP[lower], RAMP[lower + 1], (step - lower as f64) as f32)
+}
+
+/// The map as it was rendered: near is light, far is dark, whatever its clip space.
+///
+/// `depths` are those of [`crate::verdict::Rendered`]; texels beyond their end show as if nothing was drawn there.
+#[must_use]
+pub fn stored_map(map: &Map, depths: &[f32]) -> RgbImage {
+    let (size, reversed) = (map.settings().map_size(), map.settings().clip().depth.is_reversed());
+    let mut depths: Vec<f32> = depths.iter().map(|&d| if reversed { 1.0 - d } else { d }).collect();
+    depths.resize(size as usize * size as usize, 1.0);
+    DepthMap { size, depths }.to_image()
+}
+
+/// Asks for the colour of each pixel by its index, row by row from the top, and its height in the picture: 0 at the
+/// bottom, 1 at the top.
+fn picture([width, height]: [u32; 2], colour: impl Fn(usize, f32) -> Colour) -> RgbImage {
+    RgbImage::from_fn(width, height, |x, y| {
+        let index = y as usize * width as usize + x as usize;
+        Rgb(colour(index, 1.0 - (y as f32 + 0.5) / height as f32).map(encode))
+    })
+}

@@ -1,0 +1,146 @@
+//! What programs read: a run's results as JSON.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use serde::Serialize;
+use shadowfit::View;
+
+use crate::args::ClipArg;
+use crate::gpu::{Filter, MapPass};
+use crate::run::{Drawn, MapRun, NoMap, Options, Times};
+use crate::stage::StageLight;
+use crate::technique::Technique;
+use crate::verdict::Verdict;
+
+/// The camera of a report.
+#[derive(Clone, Debug, Serialize)]
+pub struct CameraReport {
+    /// Where it is, in world space.
+    pub eye: [f64; 3],
+    /// Where it looks, of length one.
+    pub forward: [f64; 3],
+    /// The near plane's distance, in world units.
+    pub near: f64,
+    /// The far plane's distance; nothing where it is infinite.
+    pub far: Option<f64>,
+}
+
+impl From<&View> for CameraReport {
+    fn from(view: &View) -> Self {
+        Self {
+            eye: view.eye().to_array(),
+            forward: view.forward().to_array(),
+            near: view.near(),
+            far: view.far().is_finite().then(|| view.far()),
+        }
+    }
+}
+
+/// One run.
+#[derive(Clone, Debug, Serialize)]
+pub struct RunReport {
+    /// The light, as the command line spells it.
+    pub light: String,
+    /// What the camera's perspective makes of it.
+    pub class: String,
+    /// How the texels are spread.
+    pub technique: Technique,
+    /// Texels along each side.
+    pub map_size: u32,
+    /// Whose clip space the matrix is for.
+    pub clip: ClipArg,
+    /// How the map is read.
+    pub filter: Filter,
+    /// What came of it.
+    #[serde(flatten)]
+    pub result: RunResult,
+}
+
+/// What came of a run.
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
+pub enum RunResult {
+    /// A map.
+    Map(Box<MapReport>),
+    /// No map.
+    NoMap {
+        /// The crate's own words.
+        no_map: String,
+        /// Pixels that are in shadow in truth, where the crate said that no shadow needs a map.
+        missing: usize,
+    },
+}
+
+/// What came of a map.
+#[derive(Clone, Debug, Serialize)]
+pub struct MapReport {
+    /// How far the warp's camera moved back, in world units.
+    pub shift: f64,
+    /// How much of the warp is left out, see [`shadowfit::Map::weakening`].
+    pub weakening: f64,
+    /// How the map was drawn.
+    pub pass: MapPass,
+    /// What was drawn into it.
+    pub drawn: Drawn,
+    /// How long it took.
+    pub times: Times,
+    /// How it compares with the truth.
+    #[serde(flatten)]
+    pub verdict: Verdict,
+}
+
+impl RunReport {
+    /// Of a run.
+    #[must_use]
+    pub fn new(view: &View, light: &StageLight, options: &Options, run: &Result<MapRun, NoMap>) -> Self {
+        let result = match run {
+            Ok(run) => RunResult::Map(Box::new(MapReport {
+                shift: run.map.camera().shift,
+                weakening: run.map.weakening(),
+                pass: run.pass,
+                drawn: run.drawn,
+                times: run.times,
+                verdict: run.verdict.clone(),
+            })),
+            Err(none) => RunResult::NoMap {
+                no_map: none.to_string(),
+                missing: match none {
+                    NoMap::Empty(_) => light.truth.shadowed(),
+                    // An answer that promises nothing: other maps serve.
+                    NoMap::Surrounded(_) => 0,
+                },
+            },
+        };
+        Self {
+            light: light.spec.to_string(),
+            class: shadowfit::classify(view, &light.light).kind.to_string(),
+            technique: options.technique,
+            map_size: options.map_size,
+            clip: options.clip,
+            filter: options.filter,
+            result,
+        }
+    }
+
+    /// Pixels that are lit because a caster was clipped or culled, or because there is no map though there should be.
+    #[must_use]
+    pub fn missing(&self) -> usize {
+        match &self.result {
+            RunResult::Map(map) => map.verdict.counts.missing,
+            RunResult::NoMap { missing, .. } => *missing,
+        }
+    }
+}
+
+/// Writes a report.
+///
+/// # Errors
+///
+/// When the file cannot be written.
+pub fn write(report: &impl Serialize, path: &Path) -> Result<()> {
+    let mut text = serde_json::to_string_pretty(report).context("the report cannot be put in words")?;
+    text.push('\n');
+    fs::write(path, text).with_context(|| format!("cannot write '{}'", path.display()))
+}

@@ -1,0 +1,247 @@
+//! One run: one light, fitted in one way, drawn on the card and held against the truth.
+
+use std::fmt;
+use std::ops::Range;
+use std::time::Duration;
+
+use anyhow::{Context, Result};
+use serde::Serialize;
+use shadowfit::{DepthFormat, Empty, Focus, Form, Light, Map, Origin, Outcome, Settings, Surrounded, fit};
+
+use crate::args::ClipArg;
+use crate::fitting::median_time;
+use crate::gpu::{Bias, Filter, MapPass, ShadowMap, Shadows, shadow_test};
+use crate::scene::Mesh;
+use crate::stage::{Stage, StageLight};
+use crate::technique::Technique;
+use crate::trace::Faces;
+use crate::verdict::{self, Rendered, Verdict};
+
+/// How a light's map is fitted, drawn and read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// How its texels are spread.
+    pub technique: Technique,
+    /// Texels along each side.
+    pub map_size: u32,
+    /// Whose clip space its matrix is for.
+    pub clip: ClipArg,
+    /// The depth buffer's format.
+    pub format: DepthFormat,
+    /// Which sides of triangles are drawn.
+    pub faces: Faces,
+    /// How it is read.
+    pub filter: Filter,
+    /// What is added to depth; `None` for what the filter needs, see [`enough_bias`].
+    pub bias: Option<Bias>,
+    /// How often it is drawn and read, for the median of the times.
+    pub frames: u32,
+}
+
+impl Options {
+    /// An unwarped or warped map for wgpu's clip space, 24 bits deep, its nearest texel read, drawn once.
+    #[must_use]
+    pub fn new(technique: Technique, map_size: u32) -> Self {
+        Self {
+            technique,
+            map_size,
+            clip: ClipArg::Wgpu,
+            format: DepthFormat::Unorm24,
+            faces: Faces::All,
+            filter: Filter::Nearest,
+            bias: None,
+            frames: 1,
+        }
+    }
+
+    fn pass(&self) -> MapPass {
+        let bias = self.bias.unwrap_or_else(|| enough_bias(self.format, self.filter));
+        MapPass { format: self.format, faces: self.faces, bias }
+    }
+
+    /// A border as wide as the filter reaches.
+    fn settings(&self, image_height: u32) -> Result<Settings> {
+        let settings = Settings::new(self.map_size, image_height).context("the sizes cannot be used")?;
+        let border = self.filter.reach().ceil() as u32;
+        let settings = settings.with_border(border).context("the filter is too wide for so small a map")?;
+        Ok(self.technique.settings(settings).with_clip(self.clip.into()).with_origin(Origin::Eye))
+    }
+}
+
+/// The bias with which a plane does not shadow itself.
+///
+/// A filter compares a point's depth with that of texels whose middles are up to [`Filter::reach`] away, across and
+/// down; the hardware's slope is the greater of the two changes of depth a texel, so the plane's depth differs by at most
+/// twice the reach times it. The rasteriser places vertices to a 256th of a texel and interpolates across small triangles
+/// with that error, for which an eighth of a texel is added. The constant is for rounding: of the stored value, half a
+/// step; and of positions, matrix and division in f32, some 2⁻²⁴ each, together taken as 8 of them.
+#[must_use]
+pub fn enough_bias(format: DepthFormat, filter: Filter) -> Bias {
+    let rounding = 8.0 * 2_f64.powi(-24);
+    let constant = 1 + (rounding / Bias::step(format)).ceil() as i32;
+    Bias { constant, slope: 2.0 * filter.reach() as f32 + 0.125 }
+}
+
+/// The fit's answer where there is no map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoMap {
+    /// None is needed.
+    Empty(Empty),
+    /// No single one will do.
+    Surrounded(Surrounded),
+}
+
+impl fmt::Display for NoMap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty(empty) => empty.fmt(f),
+            Self::Surrounded(surrounded) => surrounded.fmt(f),
+        }
+    }
+}
+
+/// A map, drawn.
+pub struct DrawnMap {
+    /// The fit.
+    pub map: Map,
+    /// The map on the card.
+    pub shadow_map: ShadowMap,
+    /// The share of objects and triangles that were drawn.
+    pub drawn: Drawn,
+}
+
+/// What culling against H left to draw.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Drawn {
+    /// Objects drawn.
+    pub objects: usize,
+    /// Objects there are.
+    pub of_objects: usize,
+    /// Triangles drawn.
+    pub triangles: usize,
+    /// Triangles there are.
+    pub of_triangles: usize,
+}
+
+/// Fits a map as a renderer does, culls the casters against H and draws them; or says why there is no map.
+///
+/// # Errors
+///
+/// When the settings cannot be used or the card refuses.
+pub fn draw_map(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<DrawnMap, NoMap>> {
+    let focus = Focus::new(&stage.view, light, &stage.bounds);
+    let map = match focus.fit(&options.settings(stage.size[1])?) {
+        Outcome::Map(map) => map,
+        Outcome::Empty(empty) => return Ok(Err(NoMap::Empty(empty))),
+        Outcome::Surrounded(surrounded) => return Ok(Err(NoMap::Surrounded(surrounded))),
+    };
+    let mesh = stage.tracer.mesh();
+    let casters = casters(mesh, &focus);
+    let triangles = casters.iter().map(Range::len).sum();
+    let drawn = Drawn {
+        objects: casters.len(),
+        of_objects: mesh.objects.len(),
+        triangles,
+        of_triangles: mesh.triangles.len(),
+    };
+    let shadow_map = ShadowMap::draw(stage.gpu, &stage.geometry, &casters, &map, &options.pass())?;
+    Ok(Ok(DrawnMap { map, shadow_map, drawn }))
+}
+
+/// The triangles of the objects that meet H.
+fn casters(mesh: &Mesh, focus: &Focus<'_>) -> Vec<Range<u32>> {
+    let body = focus.body(Form::Tight);
+    let meets = mesh.objects.iter().filter(|object| body.meets_box(object.min, object.max));
+    meets.map(|object| object.triangles.clone()).collect()
+}
+
+/// Median times.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Times {
+    /// Of the fit, on the processor, in microseconds.
+    pub fit_us: f64,
+    /// Of the shadow map's pass, by the card's clock, in milliseconds; nothing where it has none.
+    pub shadow_map_ms: Option<f64>,
+    /// Of the camera's pass.
+    pub camera_ms: Option<f64>,
+    /// Of the shadow test.
+    pub shadow_test_ms: Option<f64>,
+}
+
+/// What came of a run with a map.
+pub struct MapRun {
+    /// The map.
+    pub map: Map,
+    /// Its depths as stored, row by row from the top.
+    pub depths: Vec<f32>,
+    /// The share of light that reaches each pixel.
+    pub lit: Vec<f32>,
+    /// What was drawn.
+    pub drawn: Drawn,
+    /// What the bias was.
+    pub pass: MapPass,
+    /// How long it took.
+    pub times: Times,
+    /// How it compares with the truth.
+    pub verdict: Verdict,
+}
+
+/// Runs one light through one technique; or says why there is no map.
+///
+/// # Errors
+///
+/// When the settings cannot be used or the card refuses.
+pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<Result<MapRun, NoMap>> {
+    let mut shadow_map_times = Vec::new();
+    let mut shadow_test_times = Vec::new();
+    let (DrawnMap { map, shadow_map, drawn }, Shadows { lit, .. }) = {
+        let mut frame = || -> Result<Result<_, NoMap>> {
+            let drawn = match draw_map(stage, &light.light, options)? {
+                Ok(drawn) => drawn,
+                Err(none) => return Ok(Err(none)),
+            };
+            let shadows = shadow_test(stage.gpu, &stage.surfaces, &drawn.shadow_map, options.filter)?;
+            shadow_map_times.extend(drawn.shadow_map.time);
+            shadow_test_times.extend(shadows.time);
+            Ok(Ok((drawn, shadows)))
+        };
+        for _ in 1..options.frames {
+            if let Err(none) = frame()? {
+                return Ok(Err(none));
+            }
+        }
+        match frame()? {
+            Ok(last) => last,
+            Err(none) => return Ok(Err(none)),
+        }
+    };
+    let depths = shadow_map.depths(stage.gpu)?;
+    let settings = *map.settings();
+    // A fit takes a few hundred times less than a frame.
+    let fits = 300 * options.frames as usize - 299;
+    let fit_time = median_time(fits, || fit(&stage.view, &light.light, &stage.bounds, &settings));
+    let pass = options.pass();
+    let step = Bias::step(pass.format);
+    let rendered = Rendered {
+        map: &map,
+        lit: &lit,
+        depths: &depths,
+        faces: pass.faces,
+        bias: verdict::Bias { constant: f64::from(pass.bias.constant) * step, slope: pass.bias.slope.into() },
+        depth_step: step,
+        reach: options.filter.reach(),
+    };
+    let verdict = verdict::judge(&light.truth, &rendered, stage.tracer)?;
+    let times = Times {
+        fit_us: fit_time.as_secs_f64() * 1e6,
+        shadow_map_ms: median_ms(shadow_map_times),
+        camera_ms: median_ms(stage.surfaces.time.into_iter().collect()),
+        shadow_test_ms: median_ms(shadow_test_times),
+    };
+    Ok(Ok(MapRun { map, depths, lit, drawn, pass, times, verdict }))
+}
+
+fn median_ms(mut times: Vec<Duration>) -> Option<f64> {
+    times.sort_unstable();
+    times.get(times.len() / 2).map(|time| time.as_secs_f64() * 1e3)
+}

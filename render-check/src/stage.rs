@@ -1,0 +1,63 @@
+//! One camera before one scene: what all lights and all techniques share.
+
+use anyhow::Result;
+use shadowfit::{Light, Scene, View};
+
+use crate::fitting::{lamp_near, scene_box};
+use crate::gpu::{Geometry, Gpu, Surfaces};
+use crate::light::LightSpec;
+use crate::trace::Tracer;
+use crate::verdict::TruthImage;
+
+/// A camera before a scene, drawn.
+pub struct Stage<'a> {
+    /// The card that draws.
+    pub gpu: &'a Gpu,
+    /// The scene, as rays meet it.
+    pub tracer: &'a Tracer<'a>,
+    /// The scene's box, S.
+    pub bounds: Scene<'static>,
+    /// The camera, V.
+    pub view: View,
+    /// Width and height of its image, in pixels.
+    pub size: [u32; 2],
+    /// The triangles on the card, relative to the camera's eye.
+    pub geometry: Geometry,
+    /// What the camera sees.
+    pub surfaces: Surfaces,
+}
+
+impl<'a> Stage<'a> {
+    /// Draws what the camera sees.
+    ///
+    /// # Errors
+    ///
+    /// When the scene is too large for the fit or for the card.
+    pub fn new(gpu: &'a Gpu, tracer: &'a Tracer<'a>, view: &View, size: [u32; 2]) -> Result<Self> {
+        let geometry = Geometry::upload(gpu, tracer.mesh(), view.eye())?;
+        let surfaces = Surfaces::draw(gpu, &geometry, view, size)?;
+        Ok(Self { gpu, tracer, bounds: scene_box(tracer.mesh())?, view: *view, size, geometry, surfaces })
+    }
+
+    /// A light, as the fit takes it and as rays see it from here.
+    ///
+    /// # Errors
+    ///
+    /// When the light makes no sense.
+    pub fn light(&self, spec: LightSpec) -> Result<StageLight> {
+        let near = lamp_near(self.tracer.mesh());
+        let light = spec.to_light(near)?;
+        let truth = TruthImage::trace(&self.view, self.size, &self.surfaces.triangles, &spec, near, self.tracer)?;
+        Ok(StageLight { spec, light, truth })
+    }
+}
+
+/// A light on a stage.
+pub struct StageLight {
+    /// As it was written.
+    pub spec: LightSpec,
+    /// As the fit takes it.
+    pub light: Light,
+    /// What rays say of every pixel.
+    pub truth: TruthImage,
+}

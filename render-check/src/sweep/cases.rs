@@ -1,0 +1,207 @@
+//! The cases of a sweep, in groups.
+
+use std::path::Path;
+
+use anyhow::Result;
+use shadowfit::glam::DVec3;
+use shadowfit::{DepthFormat, View};
+
+use super::IMAGE;
+use super::lights::{NamedLight, lamps_through_the_plane, suns_across, through_the_back};
+use crate::args::ClipArg;
+use crate::framing::{Camera, choose_view};
+use crate::gpu::Filter;
+use crate::light::LightSpec;
+use crate::run::Options;
+use crate::scene::{self, LoadedScene};
+use crate::technique::Technique;
+use crate::trace::{Faces, Tracer};
+
+/// Texels a side of the maps, where their size is not what is swept.
+const MAP_SIZE: u32 = 512;
+
+/// Cases that belong together.
+pub struct Group {
+    /// A name without spaces.
+    pub name: &'static str,
+    /// The cases.
+    pub shots: Vec<Shot>,
+}
+
+/// One camera before one scene, under some lights, each through some maps.
+pub struct Shot {
+    /// What is special about it.
+    pub name: String,
+    /// The scene.
+    pub scene: LoadedScene,
+    /// The camera.
+    pub view: View,
+    /// The lights, and what is special about them.
+    pub lights: Vec<NamedLight>,
+    /// The maps.
+    pub options: Vec<Options>,
+}
+
+impl Group {
+    /// How many runs it has.
+    #[must_use]
+    pub fn runs(&self) -> usize {
+        self.shots.iter().map(|shot| shot.lights.len() * shot.options.len()).sum()
+    }
+}
+
+/// All groups.
+///
+/// # Errors
+///
+/// When a built-in scene has no camera that sees it.
+pub fn groups() -> Result<Vec<Group>> {
+    let chess = || Stand::built_in("chess-board");
+    let group = |name, shots| Group { name, shots };
+    Ok(vec![
+        group("classes-of-suns", vec![chess()?.shot("arc", suns_across)?]),
+        group("classes-of-lamps", vec![chess()?.shot("line", |view| lamps_through_the_plane(view, 1.0))?]),
+        group("through-the-back", vec![chess()?.shot("viewer's back", |view| through_the_back(view, 1.0))?]),
+        group("behind-the-eye", vec![Stand::built_in("behind")?.own_lights("figure")?]),
+        group("lights-inside", lights_inside()?),
+        group("flat", flat()?),
+        group("far-planes", far_planes()?),
+        group("scales", scales()?),
+        group("clip-spaces", vec![chess()?.own_lights("chess board")?.with_options(clip_spaces())]),
+        group("sizes", vec![chess()?.own_lights("chess board")?.with_options(sizes())]),
+        group("filters", vec![chess()?.own_lights("chess board")?.with_options(filters())]),
+        group("street", vec![Stand::built_in("street")?.own_lights("street")?]),
+        group("leaves", vec![Stand::built_in("leaves")?.own_lights("leaves")?]),
+    ])
+}
+
+/// A camera in a scene, before its planes are chosen.
+struct Stand {
+    scene: LoadedScene,
+    camera: Camera,
+}
+
+impl Stand {
+    fn built_in(name: &str) -> Result<Self> {
+        let scene = scene::load(Path::new(name))?;
+        let (min, max) = scene.mesh.bounds();
+        let above = Camera::looking_at(max + 0.2 * (max - min), 0.5 * (min + max), 0.9)?;
+        Ok(Self { camera: scene.camera.unwrap_or(above), scene })
+    }
+
+    fn with_planes(mut self, near: f64, far: f64) -> Self {
+        (self.camera.near, self.camera.far) = (Some(near), Some(far));
+        self
+    }
+
+    fn shot(self, name: &str, lights: impl FnOnce(&View) -> Vec<NamedLight>) -> Result<Shot> {
+        let aspect = f64::from(IMAGE[0]) / f64::from(IMAGE[1]);
+        let view = choose_view(&self.camera, aspect, &Tracer::new(&self.scene.mesh)?)?.0;
+        let options = Technique::COMPARED.map(|technique| Options::new(technique, MAP_SIZE)).to_vec();
+        Ok(Shot { name: name.to_owned(), lights: lights(&view), scene: self.scene, view, options })
+    }
+
+    fn own_lights(self, name: &str) -> Result<Shot> {
+        let lights = self.scene.lights.iter().map(|light| (light.kind().to_owned(), *light)).collect();
+        self.shot(name, |_| lights)
+    }
+}
+
+impl Shot {
+    fn with_options(self, options: Vec<Options>) -> Self {
+        Self { options, ..self }
+    }
+}
+
+/// Lamps inside of the scene: out of view, in view, and on the way from one to the other.
+fn lights_inside() -> Result<Vec<Shot>> {
+    let room = Stand::built_in("room")?;
+    let own = Stand::built_in("room")?.own_lights("room")?;
+    let across = room.shot("a lamp that comes into view", |view| {
+        let ahead = view.eye() + 1.5 * view.forward();
+        (0..=8)
+            .map(|i| {
+                let above = 0.25 * f64::from(i);
+                let position = ahead + above * view.up();
+                (format!("lamp {above} above the axis"), LightSpec::Point { position, range: f64::INFINITY })
+            })
+            .collect()
+    })?;
+    Ok(vec![own, across])
+}
+
+/// A plate on which nothing casts, under a high sun, a low one, and a lamp.
+fn flat() -> Result<Vec<Shot>> {
+    let lights = |_: &View| {
+        vec![
+            ("high sun".to_owned(), LightSpec::Sun { direction_to_light: DVec3::new(0.2, 1.0, 0.1) }),
+            ("low sun".to_owned(), LightSpec::Sun { direction_to_light: DVec3::new(1.0, 0.05, -0.4) }),
+            ("sun from straight above".to_owned(), LightSpec::Sun { direction_to_light: DVec3::Y }),
+            ("lamp".to_owned(), LightSpec::Point { position: DVec3::new(3.0, 5.0, -2.0), range: f64::INFINITY }),
+        ]
+    };
+    Ok(vec![Stand::built_in("ground")?.shot("plate", lights)?])
+}
+
+/// Far planes at infinity and a million units off, near planes a thousandth off.
+fn far_planes() -> Result<Vec<Shot>> {
+    [("endless", 1.0, f64::INFINITY), ("a million", 1.0, 1e6), ("near and endless", 1e-3, f64::INFINITY)]
+        .into_iter()
+        .map(|(name, near, far)| Stand::built_in("chess-board")?.with_planes(near, far).own_lights(name))
+        .collect()
+}
+
+/// The chess board small, large, and far from the origin.
+fn scales() -> Result<Vec<Shot>> {
+    let far_off = 1e6 * DVec3::new(1.0, -0.3, 0.7);
+    [
+        ("a thousandth", 1e-3, DVec3::ZERO),
+        ("a million", 1e6, DVec3::ZERO),
+        ("a million away", 1.0, far_off),
+        ("a thousandth, a thousand away", 1e-3, 1e-3 * far_off),
+    ]
+    .into_iter()
+    .map(|(name, scale, offset)| {
+        let scene = Stand::built_in("chess-board")?.scene.moved(scale, offset);
+        let camera = scene.camera.unwrap_or(Camera::looking_at(DVec3::ONE, DVec3::ZERO, 1.0)?);
+        Stand { scene, camera }.own_lights(name)
+    })
+    .collect()
+}
+
+/// Every clip space, fixed and floating point.
+fn clip_spaces() -> Vec<Options> {
+    let mut all = Vec::new();
+    for clip in ClipArg::ALL {
+        for format in [DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32] {
+            all.extend(Technique::COMPARED.map(|technique| Options {
+                clip,
+                format,
+                ..Options::new(technique, MAP_SIZE)
+            }));
+        }
+    }
+    all
+}
+
+/// From 256² to 4096² texels.
+fn sizes() -> Vec<Options> {
+    let of = |size| Technique::COMPARED.map(|technique| Options::new(technique, size));
+    [256, 512, 1024, 2048, 4096].into_iter().flat_map(of).collect()
+}
+
+/// Every way to read a map, and to draw it.
+fn filters() -> Vec<Options> {
+    let mut all = Vec::new();
+    for faces in [Faces::All, Faces::Front, Faces::Back] {
+        for filter in [Filter::Nearest, Filter::Hardware, Filter::PercentageCloser(3), Filter::PercentageCloser(5)]
+        {
+            all.extend(Technique::COMPARED.map(|technique| Options {
+                faces,
+                filter,
+                ..Options::new(technique, MAP_SIZE)
+            }));
+        }
+    }
+    all
+}

@@ -1,0 +1,197 @@
+//! The hard cases, as small pictures of built-in scenes: drawn with every technique and held against the truth.
+
+mod cases;
+mod lights;
+
+use std::fmt;
+
+use anyhow::{Context, Result, ensure};
+use comfy_table::presets::UTF8_FULL_CONDENSED;
+use comfy_table::{CellAlignment, ContentArrangement, Table};
+use serde::Serialize;
+
+pub use cases::{Group, Shot, groups};
+
+use crate::args::SweepArgs;
+use crate::fitting_table::number;
+use crate::gpu::Gpu;
+use crate::opening::{make_directory, say};
+use crate::progress::bar;
+use crate::report::{self, RunReport, RunResult};
+use crate::run::run;
+use crate::stage::Stage;
+use crate::trace::Tracer;
+
+/// Width and height of the pictures, in pixels.
+pub const IMAGE: [u32; 2] = [240, 150];
+
+/// A run of a sweep.
+#[derive(Clone, Debug, Serialize)]
+pub struct SweepRun {
+    /// The group it belongs to.
+    pub group: &'static str,
+    /// The shot and the light in words.
+    pub case: String,
+    /// What came of it.
+    #[serde(flatten)]
+    pub run: RunReport,
+}
+
+/// Sweeps over the groups that the arguments name, or over all.
+///
+/// # Errors
+///
+/// When nothing can be drawn, with a message that says what to do; and when a caster is missing from a map.
+pub fn sweep(args: &SweepArgs) -> Result<()> {
+    let gpu = Gpu::new()?;
+    let mut groups = groups()?;
+    let names: Vec<&str> = groups.iter().map(|group| group.name).collect();
+    let names = names.join(", ");
+    groups.retain(|group| args.groups.is_empty() || args.groups.iter().any(|word| group.name.contains(word)));
+    ensure!(!groups.is_empty(), "no group is called that: there are {names}");
+    make_directory(&args.out)?;
+    say(&format!("drawn by {}", gpu.name()));
+
+    let bar = bar("sweeping", groups.iter().map(Group::runs).sum());
+    let mut runs = Vec::new();
+    let mut summaries = Vec::new();
+    for group in &groups {
+        let of_group = run_group(&gpu, group, || bar.inc(1))?;
+        summaries.push(Summary::of(group, &of_group));
+        runs.extend(of_group);
+    }
+    bar.finish_and_clear();
+    say(&table(&summaries).to_string());
+    for summary in &summaries {
+        if let Some(worst) = &summary.worst {
+            say(&format!("{}: {} % false at worst: {worst}", summary.group, number(100.0 * summary.worst_false)));
+        }
+    }
+    report::write(&runs, &args.out.join("sweep.json"))?;
+    say(&format!("wrote sweep.json to {}", args.out.display()));
+    let missing: usize = summaries.iter().map(|summary| summary.missing).sum();
+    ensure!(missing == 0, "{missing} pixels are lit because a caster is missing from a map");
+    Ok(())
+}
+
+/// Runs all of a group; `done` is called after each run.
+///
+/// # Errors
+///
+/// When a case cannot be drawn.
+pub fn run_group(gpu: &Gpu, group: &Group, done: impl Fn()) -> Result<Vec<SweepRun>> {
+    let mut runs = Vec::new();
+    for shot in &group.shots {
+        let tracer = Tracer::new(&shot.scene.mesh)?;
+        let stage = Stage::new(gpu, &tracer, &shot.view, IMAGE)?;
+        for (words, spec) in &shot.lights {
+            let light = stage.light(*spec).with_context(|| format!("{}: {}, {words}", group.name, shot.name))?;
+            for options in &shot.options {
+                let run = RunReport::new(&shot.view, &light, options, &run(&stage, &light, options)?);
+                runs.push(SweepRun { group: group.name, case: format!("{}, {words}", shot.name), run });
+                done();
+            }
+        }
+    }
+    Ok(runs)
+}
+
+/// What came of a group.
+#[derive(Clone, Debug)]
+pub struct Summary {
+    /// The group.
+    pub group: &'static str,
+    /// Runs with a map.
+    pub maps: usize,
+    /// Runs that need none.
+    pub none: usize,
+    /// Pixels compared in all of them.
+    pub compared: usize,
+    /// Pixels lit because a caster is missing.
+    pub missing: usize,
+    /// False shadow and false light, as a part of all that was compared.
+    pub false_share: f64,
+    /// Wrong pixels at edges, likewise.
+    pub edge_share: f64,
+    /// The largest share of false pixels in a run.
+    pub worst_false: f64,
+    /// That run, if there is any false pixel.
+    pub worst: Option<String>,
+}
+
+impl Summary {
+    /// Sums up the runs of a group.
+    #[must_use]
+    pub fn of(group: &Group, runs: &[SweepRun]) -> Self {
+        let (mut faults, mut edges) = (0, 0);
+        let mut summary = Self {
+            group: group.name,
+            maps: 0,
+            none: 0,
+            compared: 0,
+            missing: 0,
+            false_share: 0.0,
+            edge_share: 0.0,
+            worst_false: 0.0,
+            worst: None,
+        };
+        for sweep_run in runs {
+            summary.missing += sweep_run.run.missing();
+            let RunResult::Map(map) = &sweep_run.run.result else {
+                summary.none += 1;
+                continue;
+            };
+            let counts = &map.verdict.counts;
+            summary.maps += 1;
+            summary.compared += counts.compared;
+            faults += counts.faults();
+            edges += counts.edges();
+            let share = counts.fraction(counts.faults());
+            if share > summary.worst_false {
+                summary.worst_false = share;
+                summary.worst = Some(sweep_run.to_string());
+            }
+        }
+        let share = |count: usize| if summary.compared == 0 { 0.0 } else { count as f64 / summary.compared as f64 };
+        (summary.false_share, summary.edge_share) = (share(faults), share(edges));
+        summary
+    }
+}
+
+impl fmt::Display for SweepRun {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let RunReport { light, class, technique, map_size, clip, .. } = &self.run;
+        write!(f, "{} ({light}, {class}), {technique} {map_size}, {clip:?}", self.case)
+    }
+}
+
+fn table(summaries: &[Summary]) -> Table {
+    let mut table = Table::new();
+    table.load_style(UTF8_FULL_CONDENSED).set_content_arrangement(ContentArrangement::Disabled).set_header([
+        "group",
+        "maps",
+        "no map",
+        "pixels compared",
+        "missing",
+        "false",
+        "edge",
+        "false at worst",
+    ]);
+    let percent = |share: f64| format!("{} %", number(100.0 * share));
+    for summary in summaries {
+        table.add_row([
+            summary.group.to_owned(),
+            summary.maps.to_string(),
+            summary.none.to_string(),
+            summary.compared.to_string(),
+            summary.missing.to_string(),
+            percent(summary.false_share),
+            percent(summary.edge_share),
+            percent(summary.worst_false),
+        ]);
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}

@@ -1,0 +1,49 @@
+//! The ways to fit a map that are compared.
+
+use std::fmt;
+
+use clap::ValueEnum;
+use shadowfit::{Form, Settings, Shift, Warp};
+
+/// A way to spread a map's texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Technique {
+    /// Without a warp
+    Uniform,
+    /// The perspective shadow map, its camera moved back for the whole of H, as in the paper
+    Psm,
+    /// The same, moved back for the tight form of H
+    PsmTight,
+    /// The same, with its camera where the view's is
+    PsmUnshifted,
+}
+
+impl Technique {
+    /// Those that are compared where nobody chooses.
+    pub const COMPARED: [Self; 3] = [Self::Uniform, Self::Psm, Self::PsmUnshifted];
+
+    /// The settings with this technique's warp and shift.
+    #[must_use]
+    pub fn settings(self, settings: Settings) -> Settings {
+        let (warp, shift) = match self {
+            Self::Uniform => (Warp::Uniform, Shift::None),
+            Self::Psm => (Warp::Perspective, Shift::Back(Form::Paper)),
+            Self::PsmTight => (Warp::Perspective, Shift::Back(Form::Tight)),
+            Self::PsmUnshifted => (Warp::Perspective, Shift::None),
+        };
+        settings.with_warp(warp).with_shift(shift)
+    }
+}
+
+/// The word that the command line takes.
+impl fmt::Display for Technique {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Uniform => "uniform",
+            Self::Psm => "psm",
+            Self::PsmTight => "psm-tight",
+            Self::PsmUnshifted => "psm-unshifted",
+        })
+    }
+}

@@ -1,0 +1,88 @@
+//! Edges of shadows: where a map of finite resolution cannot be asked to be right.
+//!
+//! A map answers for whole texels, and a renderer's pixels are off by a little, so along the edge of every true shadow
+//! some pixels are wrong. A wrong pixel is taken for one of these where the truth itself changes close by:
+//!
+//! - **in texels**: at one of the texel centres that the filter reads, or at one of eight places around, half a texel
+//!   farther out than it reads; all of them taken along the tangent plane of the receiver, so that the truth is asked of
+//!   a plane and not of whatever surface is there. A place whose ray of light does not meet that plane counts as a
+//!   change: the plane turns away from the light within the filter.
+//! - **in pixels**: at one of the eight pixels around.
+//!
+//! What this hides: faults within that distance of a true edge, which includes creases and contacts, where the tangent
+//! plane runs into another surface and is in shadow there; and, where the light grazes a surface, all that lies within
+//! the long stretch of it that a texel covers. What it cannot hide: acne on flat and convex surfaces, as their tangent
+//! planes are lit all around, and light in the inside of a shadow, as it is dark all around.
+
+use shadowfit::glam::DVec2;
+
+use super::Comparison;
+use super::surface::Surface;
+
+/// How much farther out than the filter reads the truth is asked, in texels.
+const BEYOND: f64 = 0.5;
+
+impl Comparison<'_> {
+    /// Whether the truth changes from `lit`, which it is at the receiver, within the texels that the filter reads.
+    pub(super) fn is_edge_in_texels(&self, receiver: &Surface, lit: bool) -> bool {
+        let Some(place) = self.texels.place(receiver.point).map(|place| place.truncate()) else {
+            return false;
+        };
+        let changes_at = |place: DVec2| match self.texels.on_plane(receiver.point, receiver.normal, place) {
+            Some(point) => self.truth.source().is_shadowed(self.tracer, point, receiver.normal) == lit,
+            None => true,
+        };
+        let reach = self.rendered.reach;
+        around(place, reach + BEYOND).chain(centres_within(place, reach)).any(changes_at)
+    }
+
+    /// Whether the truth changes from `lit`, which it is in the pixel at `index`, in one of the pixels around that are
+    /// compared too.
+    pub(super) fn is_edge_in_pixels(&self, index: usize, lit: bool) -> bool {
+        self.truth.around(index).filter_map(|pixel| pixel.compared()).any(|(_, other)| other != lit)
+    }
+}
+
+/// Eight places on a square around a place.
+fn around(place: DVec2, distance: f64) -> impl Iterator<Item = DVec2> {
+    (-1..=1)
+        .flat_map(|y| (-1..=1).map(move |x| DVec2::new(f64::from(x), f64::from(y))))
+        .filter(|&step| step != DVec2::ZERO)
+        .map(move |step| place + distance * step)
+}
+
+/// The centres of the texels that lie no farther from a place than `reach`, in columns and in rows.
+fn centres_within(place: DVec2, reach: f64) -> impl Iterator<Item = DVec2> {
+    let span = move |at: f64| {
+        let (first, last) = ((at - reach - 0.5).ceil(), (at + reach - 0.5).floor());
+        (0..=(last - first) as u32).map(move |i| first + f64::from(i) + 0.5)
+    };
+    span(place.y).flat_map(move |row| span(place.x).map(move |column| DVec2::new(column, row)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_filter_reads_the_texels_whose_centres_it_reaches() {
+        let read = |x: f64, reach: f64| {
+            let mut columns: Vec<f64> = centres_within(DVec2::new(x, 7.6), reach).map(|centre| centre.x).collect();
+            let count = columns.len();
+            columns.sort_by(f64::total_cmp);
+            columns.dedup();
+            (count, columns)
+        };
+        assert_eq!(read(3.1, 0.5), (1, vec![3.5]));
+        assert_eq!(read(3.9, 0.5), (1, vec![3.5]));
+        assert_eq!(read(3.1, 1.0), (4, vec![2.5, 3.5]));
+        assert_eq!(read(3.1, 1.5), (9, vec![2.5, 3.5, 4.5]));
+    }
+
+    #[test]
+    fn eight_places_lie_around() {
+        let places: Vec<DVec2> = around(DVec2::new(5.0, 6.0), 1.5).collect();
+        assert_eq!(places.len(), 8);
+        assert!(places.iter().all(|&place| (place - DVec2::new(5.0, 6.0)).abs().max_element() == 1.5));
+    }
+}

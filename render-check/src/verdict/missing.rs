@@ -1,0 +1,72 @@
+//! Missing casters: what a map ought to hold and does not, because it was clipped or culled.
+//!
+//! Whether a pixel of the picture is wrong says little about why. This looks into the map itself, at the texel that the
+//! pixel's point falls in, and flags it only where no sampling, bias or rounding can explain what is there.
+//!
+//! Five rays of light go through the texel: through its centre, where the rasteriser samples, and through four places a
+//! sixteenth of a texel off, so that a caster's edge close to the centre leaves no doubt of which side it is on. Each
+//! ends on the receiver's tangent plane. A caster is missing where all five meet a drawn face, where the farthest depth
+//! that these faces can have been stored with lies before the nearest depth of the receiver, and where the map yet holds
+//! a depth beyond that. The farthest depth of a face is its depth plus
+//!
+//! - the rasteriser's bias, as it is stated;
+//! - its slope over a 256th of a texel, in columns and rows: a rasteriser rounds corners of triangles to such a grid,
+//!   half a step at most, which carries each point of a triangle no farther than its corners; the other half is left for
+//!   the interpolation of depth;
+//! - the step between depths that the map can store;
+//! - what the f32 matrix can be off by at that point.
+//!
+//! The receiver's depth may be off by the latter two as well.
+
+use shadowfit::glam::DVec2;
+
+use super::Comparison;
+use super::surface::Surface;
+
+/// How far off a texel's centre the other rays go, in texels, where the f32 matrix is exact.
+const OFF_CENTRE: f64 = 1.0 / 16.0;
+
+/// The rasteriser's grid, in texels.
+const SUBTEXEL: f64 = 1.0 / 256.0;
+
+impl Comparison<'_> {
+    /// Whether the map misses a caster in the texel that the point of a receiver falls in.
+    ///
+    /// A point outside of the map counts as one before which nothing is stored.
+    pub(super) fn is_caster_missing(&self, receiver: &Surface) -> bool {
+        let Some(place) = self.texels.place(receiver.point).map(|place| place.truncate()) else {
+            return false;
+        };
+        let stored = self.texels.index(place).map_or(f64::INFINITY, |texel| self.rendered.depth(texel));
+        let (across, _) = self.texels.rounding(receiver.point);
+        let (centre, off) = (place.floor() + 0.5, OFF_CENTRE + across);
+        let (mut farthest_caster, mut nearest_receiver) = (f64::NEG_INFINITY, f64::INFINITY);
+        for step in [DVec2::ZERO, DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y] {
+            let Some(depths) = self.caster_and_receiver(receiver, centre + off * step) else {
+                return false;
+            };
+            farthest_caster = farthest_caster.max(depths.0);
+            nearest_receiver = nearest_receiver.min(depths.1);
+        }
+        farthest_caster < nearest_receiver && nearest_receiver < stored
+    }
+
+    /// At a place of the map, the farthest depth with which the caster there can have been stored, and the nearest that
+    /// the receiver's tangent plane can have; `None` where no drawn face stands before that plane, or one that the light
+    /// sees from its edge.
+    fn caster_and_receiver(&self, receiver: &Surface, place: DVec2) -> Option<(f64, f64)> {
+        let (texels, rendered) = (&self.texels, self.rendered);
+        let point = texels.on_plane(receiver.point, receiver.normal, place)?;
+        let ray = self.truth.source().ray_to(self.tracer, point)?;
+        let caster = self.tracer.first_hit_of(&ray, rendered.faces)?;
+        let slopes = texels.slopes(caster.point, caster.face_normal)?;
+        let bias = rendered.bias.constant + rendered.bias.slope * slopes.max_element();
+        let (_, caster_rounding) = texels.rounding(caster.point);
+        let (_, receiver_rounding) = texels.rounding(point);
+        let tolerance = SUBTEXEL * slopes.element_sum() + rendered.depth_step + caster_rounding;
+        Some((
+            texels.place(caster.point)?.z + bias + tolerance,
+            texels.place(point)?.z - rendered.depth_step - receiver_rounding,
+        ))
+    }
+}

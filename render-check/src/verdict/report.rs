@@ -1,0 +1,184 @@
+//! What is told of a comparison: a mark for each pixel, their counts, the worst place, and how coarse the map is.
+
+use serde::Serialize;
+
+use super::cluster::{Cluster, Fault};
+
+/// What came of comparing one pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// No surface, so nothing to compare.
+    Sky,
+    /// No light that a shadow could take away, so nothing to compare.
+    Unlit,
+    /// As it ought to be.
+    Right,
+    /// Wrong, close in texels to an edge of the true shadow.
+    EdgeTexel,
+    /// Wrong, next in pixels to an edge of the true shadow.
+    EdgePixel,
+    /// Dark, and ought to be lit.
+    FalseShadow,
+    /// Lit, and ought to be dark.
+    FalseLight,
+    /// Lit, and ought to be dark, as the map does not hold a caster that it should.
+    Missing,
+}
+
+impl Mark {
+    /// What is wrong here that no edge explains.
+    #[must_use]
+    pub fn fault(self) -> Option<Fault> {
+        match self {
+            Self::FalseShadow => Some(Fault::FalseShadow),
+            Self::FalseLight => Some(Fault::FalseLight),
+            Self::Missing => Some(Fault::Missing),
+            Self::Sky | Self::Unlit | Self::Right | Self::EdgeTexel | Self::EdgePixel => None,
+        }
+    }
+}
+
+/// Numbers of pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Counts {
+    /// All of the picture.
+    pub pixels: usize,
+    /// Those without a surface.
+    pub sky: usize,
+    /// Those that the light does not reach, whatever stands where.
+    pub unlit: usize,
+    /// The rest: those that are compared.
+    pub compared: usize,
+    /// Those of them that are truly in shadow.
+    pub shadowed: usize,
+    /// Dark, and ought to be lit.
+    pub false_shadow: usize,
+    /// Lit, and ought to be dark, though the map holds what it should.
+    pub false_light: usize,
+    /// Wrong, close in texels to an edge of the true shadow.
+    pub edge_texel: usize,
+    /// Wrong, next in pixels to an edge of the true shadow, and not counted in `edge_texel`.
+    pub edge_pixel: usize,
+    /// Lit, and ought to be dark, as the map does not hold a caster that it should.
+    pub missing: usize,
+}
+
+impl Counts {
+    /// Counts marks. `shadowed` is how many of the compared pixels are truly in shadow.
+    pub(super) fn of(marks: &[Mark], shadowed: usize) -> Self {
+        let mut counts = Self { pixels: marks.len(), shadowed, ..Self::default() };
+        for mark in marks {
+            match mark {
+                Mark::Sky => counts.sky += 1,
+                Mark::Unlit => counts.unlit += 1,
+                Mark::Right => {}
+                Mark::EdgeTexel => counts.edge_texel += 1,
+                Mark::EdgePixel => counts.edge_pixel += 1,
+                Mark::FalseShadow => counts.false_shadow += 1,
+                Mark::FalseLight => counts.false_light += 1,
+                Mark::Missing => counts.missing += 1,
+            }
+        }
+        counts.compared = counts.pixels - counts.sky - counts.unlit;
+        counts
+    }
+
+    /// Wrong pixels that no edge explains.
+    #[must_use]
+    pub fn faults(&self) -> usize {
+        self.false_shadow + self.false_light + self.missing
+    }
+
+    /// Wrong pixels at edges of true shadows.
+    #[must_use]
+    pub fn edges(&self) -> usize {
+        self.edge_texel + self.edge_pixel
+    }
+
+    /// One of the counts as a part of the compared pixels, 0 to 1; 0 where none were compared.
+    #[must_use]
+    pub fn fraction(&self, count: usize) -> f64 {
+        if self.compared == 0 { 0.0 } else { count as f64 / self.compared as f64 }
+    }
+}
+
+/// How much larger a texel is than a pixel, over the compared pixels: see [`shadowfit::Map::aliasing`]. Infinite outside
+/// of the map.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Aliasing {
+    /// The largest.
+    pub worst: f64,
+    /// Half of the pixels have no more.
+    pub median: f64,
+    /// 95 of 100 pixels have no more.
+    pub p95: f64,
+}
+
+impl Aliasing {
+    /// Of the values at all pixels; `None` where there are none.
+    pub(super) fn of(mut values: Vec<f64>) -> Option<Self> {
+        values.sort_unstable_by(f64::total_cmp);
+        let rank = |percent: usize| values.get((values.len() * percent).div_ceil(100).saturating_sub(1)).copied();
+        Some(Self { worst: rank(100)?, median: rank(50)?, p95: rank(95)? })
+    }
+}
+
+/// What came of comparing a rendered picture with the truth.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Verdict {
+    /// Numbers of pixels.
+    pub counts: Counts,
+    /// Where most faults are; `None` where there are none.
+    pub worst_cluster: Option<Cluster>,
+    /// How coarse the map is; `None` where nothing was compared.
+    pub aliasing: Option<Aliasing>,
+    /// What came of each pixel, row by row from the top. It is not serialised.
+    #[serde(skip)]
+    pub marks: Vec<Mark>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_mark_is_counted_once() {
+        let marks = [
+            Mark::Sky,
+            Mark::Unlit,
+            Mark::Unlit,
+            Mark::Right,
+            Mark::Right,
+            Mark::Right,
+            Mark::EdgeTexel,
+            Mark::EdgePixel,
+            Mark::FalseShadow,
+            Mark::FalseLight,
+            Mark::Missing,
+        ];
+        let counts = Counts::of(&marks, 4);
+        let expected = Counts {
+            pixels: 11,
+            sky: 1,
+            unlit: 2,
+            compared: 8,
+            shadowed: 4,
+            false_shadow: 1,
+            false_light: 1,
+            edge_texel: 1,
+            edge_pixel: 1,
+            missing: 1,
+        };
+        assert_eq!(counts, expected);
+        assert_eq!((counts.faults(), counts.edges(), counts.fraction(counts.faults())), (3, 2, 0.375));
+        assert_eq!(Counts::default().fraction(0), 0.0);
+    }
+
+    #[test]
+    fn aliasing_is_ranked() {
+        let values: Vec<f64> = (1..=200).rev().map(f64::from).collect();
+        assert_eq!(Aliasing::of(values), Some(Aliasing { worst: 200.0, median: 100.0, p95: 190.0 }));
+        assert_eq!(Aliasing::of(vec![3.0]), Some(Aliasing { worst: 3.0, median: 3.0, p95: 3.0 }));
+        assert_eq!(Aliasing::of(Vec::new()), None);
+    }
+}
