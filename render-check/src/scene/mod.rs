@@ -1,16 +1,17 @@
 //! What is looked at: triangles in world space, and the cameras and lights that came with them.
 
 mod accessor;
-mod chess_board;
+mod builtin;
 mod glb;
-mod lathe;
 mod mesh;
 
 use std::fmt;
 use std::path::Path;
 
 use anyhow::{Result, bail};
+use shadowfit::glam::DVec3;
 
+pub use builtin::{BUILT_IN, BuiltIn};
 pub use mesh::{Mesh, MeshBuilder, Object, Part};
 
 use crate::framing::Camera;
@@ -71,13 +72,20 @@ impl fmt::Display for LeftOut {
     }
 }
 
-/// Loads a `.glb` file, or makes the built-in chess board where there is no file.
+/// Makes the built-in scene of that name; else loads a `.glb` file.
 ///
 /// # Errors
 ///
 /// When the file cannot be read, is not sound glTF, or has no triangles.
 pub fn load(path: &Path) -> Result<LoadedScene> {
-    let scene = if path == Path::new("chess-board") { chess_board::make() } else { glb::load(path)? };
+    let scene = match BUILT_IN.iter().find(|built_in| path == Path::new(built_in.name)) {
+        Some(built_in) => (built_in.make)(),
+        None if path.extension().is_none() && !path.exists() => {
+            let names = BUILT_IN.map(|built_in| built_in.name).join(", ");
+            bail!("'{}' is neither a file nor a built-in scene: these are {names}", path.display());
+        }
+        None => glb::load(path)?,
+    };
     if scene.mesh.triangles.is_empty() {
         let left_out = if scene.left_out.is_nothing() { String::new() } else { format!(" ({})", scene.left_out) };
         bail!("the scene '{}' has no triangles to cast or receive a shadow{left_out}", scene.name);
@@ -86,8 +94,73 @@ pub fn load(path: &Path) -> Result<LoadedScene> {
 }
 
 impl LoadedScene {
+    /// The same scene elsewhere and of another size: a position p becomes scale · p + offset. The scale is positive.
     #[must_use]
-    pub fn moved(&self, _scale: f64, _offset: shadowfit::glam::DVec3) -> Self {
-        self.clone()
+    pub fn moved(&self, scale: f64, offset: DVec3) -> Self {
+        let position = |p: DVec3| scale * p + offset;
+        let mut moved = self.clone();
+        moved.mesh.vertices.iter_mut().for_each(|vertex| *vertex = position(*vertex));
+        for object in &mut moved.mesh.objects {
+            (object.min, object.max) = (position(object.min), position(object.max));
+        }
+        if let Some(camera) = &mut moved.camera {
+            camera.eye = position(camera.eye);
+            camera.near = camera.near.map(|near| scale * near);
+            camera.far = camera.far.map(|far| scale * far);
+        }
+        for light in &mut moved.lights {
+            match light {
+                LightSpec::Sun { .. } => {}
+                LightSpec::Point { position: at, range } => (*at, *range) = (position(*at), scale * *range),
+                LightSpec::Spot { position: at, target, range, .. } => {
+                    (*at, *target, *range) = (position(*at), position(*target), scale * *range);
+                }
+            }
+        }
+        moved
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn built_in_scenes_are_whole() {
+        for built_in in BUILT_IN {
+            let scene = load(Path::new(built_in.name)).expect(built_in.name);
+            assert_eq!(scene.name, built_in.name);
+            assert!(
+                scene.camera.is_some() && !scene.lights.is_empty() && scene.left_out.is_nothing(),
+                "{}",
+                scene.name
+            );
+            assert!(scene.mesh.triangles.len() < 70_000, "{}: {}", scene.name, scene.mesh.triangles.len());
+            let drawn: usize = scene.mesh.objects.iter().map(|object| object.triangles.len()).sum();
+            assert_eq!(drawn, scene.mesh.triangles.len(), "{}", scene.name);
+        }
+    }
+
+    #[test]
+    fn a_name_that_is_none_is_told_those_that_are() {
+        let error = load(Path::new("chess")).expect_err("no such scene").to_string();
+        assert!(error.contains("chess-board"), "{error}");
+    }
+
+    #[test]
+    fn a_scene_that_is_moved_keeps_its_shape() {
+        let scene = load(Path::new("chess-board")).expect("built in");
+        let offset = DVec3::new(1e3, -2e3, 5e2);
+        let moved = scene.moved(4.0, offset);
+        let ((min, max), (moved_min, moved_max)) = (scene.mesh.bounds(), moved.mesh.bounds());
+        assert!((moved_min - (4.0 * min + offset)).length() < 1e-9);
+        assert!((moved_max - (4.0 * max + offset)).length() < 1e-9);
+        let object = |scene: &LoadedScene| scene.mesh.objects[7].clone();
+        assert!((object(&moved).min - (4.0 * object(&scene).min + offset)).length() < 1e-9);
+        let camera = |scene: &LoadedScene| scene.camera.expect("it has one");
+        assert_eq!(camera(&moved).eye, 4.0 * camera(&scene).eye + offset);
+        assert_eq!(camera(&moved).far, Some(4.0 * 28.0));
+        assert_eq!(moved.lights[0], scene.lights[0]);
+        assert_eq!(moved.lights[1].position(), scene.lights[1].position().map(|p| 4.0 * p + offset));
     }
 }

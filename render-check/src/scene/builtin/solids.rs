@@ -1,10 +1,10 @@
-//! Simple solids for the built-in scene: turned ones, boxes and cut-out shapes.
+//! Simple solids for the built-in scenes: turned ones, boxes and cut-out shapes.
 
 use std::f64::consts::TAU;
 
 use shadowfit::glam::{DMat4, DVec2, DVec3, Vec3};
 
-use super::{MeshBuilder, Part};
+use crate::scene::{MeshBuilder, Part};
 
 /// How many flat sides stand for a turned surface.
 const SIDES: u32 = 72;

@@ -3,10 +3,10 @@
 
 use shadowfit::glam::{DMat4, DVec2, DVec3};
 
-use super::lathe::{add_box, add_cut_out, add_turned};
-use super::{LoadedScene, MeshBuilder};
+use super::solids::{add_box, add_cut_out, add_turned};
 use crate::framing::Camera;
 use crate::light::LightSpec;
+use crate::scene::{LoadedScene, MeshBuilder};
 
 const FILES: u32 = 8;
 const RANKS: u32 = 24;
