@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
 # Everything that must hold: formatting, lints, docs, and the tests under every feature set and both ends of glam's range.
+# Installs a software Vulkan driver where there is none: render-check's tests need a graphics adapter, and fail without.
 set -euo pipefail
 cd "$(dirname "$0")"
 
 step() {
     printf '\n== %s\n' "$*"
 }
+
+step 'a Vulkan driver'
+./driver.sh
 
 step formatting
 cargo fmt --all --check

@@ -39,11 +39,11 @@ pub struct CheckReport {
 ///
 /// When nothing can be checked, with a message that says what to do; and when a caster is missing from a map.
 pub fn check(args: &CheckArgs) -> Result<()> {
-    let gpu = Gpu::new()?;
     let scene = open(&args.view)?;
     let out = output_directory(&args.view, &scene)?;
     let tracer = sort(&scene.mesh)?;
     let (_, view) = place_camera(&args.view, &scene, &tracer)?;
+    let gpu = Gpu::new()?;
     say(&format!("drawn by {}", gpu.name()));
 
     let stage = Stage::new(&gpu, &tracer, &view, [args.view.width, args.view.height])?;

@@ -70,11 +70,11 @@ impl Flicker {
 ///
 /// When nothing can be drawn, with a message that says what to do.
 pub fn walk(args: &WalkArgs) -> Result<()> {
-    let gpu = Gpu::new()?;
     let scene = open(&args.view)?;
     let out = output_directory(&args.view, &scene)?;
     let tracer = sort(&scene.mesh)?;
     let (camera, start) = place_camera(&args.view, &scene, &tracer)?;
+    let gpu = Gpu::new()?;
     let pace = args.pace.unwrap_or_else(|| PACE * distance_ahead(&start, &tracer));
     say(&format!("{} steps of {pace:.4}, turning {} degrees each; drawn by {}", args.steps, args.turn, gpu.name()));
 

@@ -43,11 +43,89 @@ fn glb(json: &str) -> Vec<u8> {
 }
 
 #[test]
-fn without_arguments_it_shows_a_chess_board_under_three_lights() {
+fn without_arguments_it_checks_a_chess_board_under_three_lights() {
     let directory = temporary();
     let output = run_small(&[], directory.path());
     let printed = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    for expected in ["chess-board", "sun:", "point:", "spot:", "infinity plane", "psm-unshifted 16", "missing", "µs"] {
+        assert!(printed.contains(expected), "no '{expected}' in\n{printed}");
+    }
+    let out = directory.path().join("out/chess-board");
+    for light in ["1-sun", "2-point", "3-spot"] {
+        assert!(out.join(format!("{light}-truth.png")).exists());
+        for picture in ["image", "faults", "map", "aliasing"] {
+            let path = out.join(format!("{light}-psm-16-{picture}.png"));
+            let bytes = fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+            assert!(bytes.starts_with(b"\x89PNG"), "{}", path.display());
+        }
+    }
+    let report: serde_json::Value =
+        serde_json::from_slice(&fs::read(out.join("check.json")).expect("written")).expect("sound JSON");
+    let runs = report["runs"].as_array().expect("a list");
+    assert_eq!(runs.len(), 9, "three lights, three techniques");
+    for run in runs {
+        assert_eq!(run["counts"]["missing"], 0, "{run}");
+        assert_eq!((&run["map_size"], &run["filter"]), (&16.into(), &"nearest".into()));
+        assert!(run["counts"]["compared"].as_u64().expect("a number") > 100, "{run}");
+    }
+}
+
+#[test]
+fn maps_are_as_the_command_line_asks() {
+    let directory = temporary();
+    let arguments = "--light sun:1,1,0 --technique psm --size 32 --filter pcf3 --clip opengl-reversed --format float32";
+    let output = run_small(&arguments.split(' ').collect::<Vec<_>>(), directory.path());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let path = directory.path().join("out/chess-board/check.json");
+    let report: serde_json::Value =
+        serde_json::from_slice(&fs::read(path).expect("written")).expect("sound JSON");
+    let sizes: Vec<_> = report["runs"].as_array().expect("a list").iter().map(|run| &run["map_size"]).collect();
+    assert_eq!(sizes, [32, 16], "--size adds up");
+    let run = &report["runs"][0];
+    assert_eq!((&run["filter"], &run["clip"]), (&"pcf3".into(), &"opengl-reversed".into()));
+    assert_eq!(run["pass"]["format"], "float32");
+}
+
+#[test]
+fn a_walk_tells_what_flickers() {
+    let directory = temporary();
+    let output = run_small(&["walk", "--steps", "2", "--light", "sun:1,1,0"], directory.path());
+    let printed = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(printed.contains("of pixels change in a step"), "{printed}");
+    let path = directory.path().join("out/chess-board/walk.json");
+    let report: serde_json::Value =
+        serde_json::from_slice(&fs::read(path).expect("written")).expect("sound JSON");
+    assert_eq!(report[0]["steps"].as_array().map(Vec::len), Some(2));
+}
+
+#[test]
+fn a_sweep_that_knows_no_such_group_names_those_it_knows() {
+    let directory = temporary();
+    let message = complaint(&run(&["sweep", "nonsense"], directory.path()));
+    assert!(message.contains("classes-of-suns") && message.contains("scales"), "{message}");
+}
+
+#[test]
+fn without_a_graphics_adapter_it_says_what_to_install() {
+    let directory = temporary();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_render-check"));
+    // The loader's own ways to be told where the drivers are, old and new.
+    command.env("VK_DRIVER_FILES", "/nowhere.json").env("VK_ICD_FILENAMES", "/nowhere.json");
+    let output = command.env("WGPU_BACKEND", "vulkan").current_dir(directory.path()).output().expect("it starts");
+    let message = complaint(&output);
+    assert!(message.contains("mesa-vulkan-drivers") && message.contains("render-check draw"), "{message}");
+}
+
+#[test]
+fn a_drawing_needs_no_graphics_adapter() {
+    let directory = temporary();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_render-check"));
+    command.env("VK_DRIVER_FILES", "/nowhere.json").env("VK_ICD_FILENAMES", "/nowhere.json");
+    let output = command.arg("draw").args(SMALL).current_dir(directory.path()).output().expect("it starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let printed = String::from_utf8_lossy(&output.stdout);
     for expected in ["chess-board", "sun:", "point:", "spot:", "infinity plane", "PSM", "aliasing", "µs"] {
         assert!(printed.contains(expected), "no '{expected}' in\n{printed}");
     }
@@ -63,7 +141,7 @@ fn without_arguments_it_shows_a_chess_board_under_three_lights() {
 #[test]
 fn lights_and_directory_are_taken_from_the_command_line() {
     let directory = temporary();
-    let output = run_small(&["--light", "sun:0,1,0", "--out", "here/and there"], directory.path());
+    let output = run_small(&["draw", "--light", "sun:0,1,0", "--out", "here/and there"], directory.path());
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let mut names: Vec<_> = fs::read_dir(directory.path().join("here/and there"))
         .expect("the directory was made")
@@ -79,6 +157,10 @@ fn a_lamp_among_what_it_lights_is_told_which_maps_serve() {
     let output = run_small(&["--light", "point:0,0.8,-8"], directory.path());
     let printed = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(printed.contains("psm 16: no map") && printed.contains("paraboloid"), "{printed}");
+
+    let output = run_small(&["draw", "--light", "point:0,0.8,-8"], directory.path());
+    let printed = String::from_utf8_lossy(&output.stdout);
     assert!(printed.contains("light 1: no map") && printed.contains("paraboloid"), "{printed}");
     assert!(directory.path().join("out/chess-board/1-point-camera.png").exists());
     assert!(!directory.path().join("out/chess-board/1-point-maps.png").exists());

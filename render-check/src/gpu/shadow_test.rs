@@ -1,5 +1,6 @@
 //! The shadow test of every pixel.
 
+use std::fmt;
 use std::time::Duration;
 
 use anyhow::Result;
@@ -10,8 +11,7 @@ use super::pass::{Pass, PipelineKind};
 use super::{Gpu, ShadowMap, Surfaces, read_back, shaders};
 
 /// How a shadow map is read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Filter {
     /// The one texel that a point lies in.
     Nearest,
@@ -30,6 +30,23 @@ impl Filter {
             Self::Hardware => 1.0,
             Self::PercentageCloser(taps) => 0.5 * f64::from(taps),
         }
+    }
+}
+
+/// The word that the command line takes.
+impl fmt::Display for Filter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Nearest => f.write_str("nearest"),
+            Self::Hardware => f.write_str("hardware"),
+            Self::PercentageCloser(taps) => write!(f, "pcf{taps}"),
+        }
+    }
+}
+
+impl serde::Serialize for Filter {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
     }
 }
 

@@ -24,8 +24,8 @@ const MAP_SIZE: u32 = 512;
 pub struct Group {
     /// A name without spaces.
     pub name: &'static str,
-    /// The cases.
-    pub shots: Vec<Shot>,
+    /// Makes the cases; an error when a scene has no camera that sees it.
+    pub shots: fn() -> Result<Vec<Shot>>,
 }
 
 /// One camera before one scene, under some lights, each through some maps.
@@ -42,37 +42,47 @@ pub struct Shot {
     pub options: Vec<Options>,
 }
 
-impl Group {
+impl Shot {
     /// How many runs it has.
     #[must_use]
     pub fn runs(&self) -> usize {
-        self.shots.iter().map(|shot| shot.lights.len() * shot.options.len()).sum()
+        self.lights.len() * self.options.len()
+    }
+
+    fn with_options(self, options: Vec<Options>) -> Self {
+        Self { options, ..self }
     }
 }
 
 /// All groups.
-///
-/// # Errors
-///
-/// When a built-in scene has no camera that sees it.
-pub fn groups() -> Result<Vec<Group>> {
-    let chess = || Stand::built_in("chess-board");
-    let group = |name, shots| Group { name, shots };
-    Ok(vec![
-        group("classes-of-suns", vec![chess()?.shot("arc", suns_across)?]),
-        group("classes-of-lamps", vec![chess()?.shot("line", |view| lamps_through_the_plane(view, 1.0))?]),
-        group("through-the-back", vec![chess()?.shot("viewer's back", |view| through_the_back(view, 1.0))?]),
-        group("behind-the-eye", vec![Stand::built_in("behind")?.own_lights("figure")?]),
-        group("lights-inside", lights_inside()?),
-        group("flat", flat()?),
-        group("far-planes", far_planes()?),
-        group("scales", scales()?),
-        group("clip-spaces", vec![chess()?.own_lights("chess board")?.with_options(clip_spaces())]),
-        group("sizes", vec![chess()?.own_lights("chess board")?.with_options(sizes())]),
-        group("filters", vec![chess()?.own_lights("chess board")?.with_options(filters())]),
-        group("street", vec![Stand::built_in("street")?.own_lights("street")?]),
-        group("leaves", vec![Stand::built_in("leaves")?.own_lights("leaves")?]),
-    ])
+pub const GROUPS: [Group; 13] = [
+    Group { name: "classes-of-suns", shots: || Ok(vec![chess_board()?.shot("arc", suns_across)?]) },
+    Group {
+        name: "classes-of-lamps",
+        shots: || Ok(vec![chess_board()?.shot("line", |view| lamps_through_the_plane(view, 1.0))?]),
+    },
+    Group {
+        name: "through-the-back",
+        shots: || Ok(vec![chess_board()?.shot("viewer's back", |view| through_the_back(view, 1.0))?]),
+    },
+    Group { name: "behind-the-eye", shots: || Ok(vec![Stand::built_in("behind")?.own_lights("figure")?]) },
+    Group { name: "lights-inside", shots: lights_inside },
+    Group { name: "flat", shots: flat },
+    Group { name: "far-planes", shots: far_planes },
+    Group { name: "scales", shots: scales },
+    Group { name: "clip-spaces", shots: || Ok(vec![lit_chess_board()?.with_options(clip_spaces())]) },
+    Group { name: "sizes", shots: || Ok(vec![lit_chess_board()?.with_options(sizes())]) },
+    Group { name: "filters", shots: || Ok(vec![lit_chess_board()?.with_options(filters())]) },
+    Group { name: "street", shots: || Ok(vec![Stand::built_in("street")?.own_lights("street")?]) },
+    Group { name: "leaves", shots: || Ok(vec![Stand::built_in("leaves")?.own_lights("leaves")?]) },
+];
+
+fn chess_board() -> Result<Stand> {
+    Stand::built_in("chess-board")
+}
+
+fn lit_chess_board() -> Result<Shot> {
+    chess_board()?.own_lights("chess board")
 }
 
 /// A camera in a scene, before its planes are chosen.
@@ -104,12 +114,6 @@ impl Stand {
     fn own_lights(self, name: &str) -> Result<Shot> {
         let lights = self.scene.lights.iter().map(|light| (light.kind().to_owned(), *light)).collect();
         self.shot(name, |_| lights)
-    }
-}
-
-impl Shot {
-    fn with_options(self, options: Vec<Options>) -> Self {
-        Self { options, ..self }
     }
 }
 

@@ -27,20 +27,19 @@ fn lamp(position: DVec3) -> LightSpec {
 /// Suns on an arc from low before the viewer, over the image plane, where the class changes, to low behind, a little to
 /// the side.
 pub(super) fn suns_across(view: &View) -> Vec<NamedLight> {
-    let ahead = (view.forward() * DVec3::new(1.0, 0.0, 1.0)).normalize();
-    let side = 0.4 * ahead.cross(DVec3::Y);
-    // The elevation at which the sun's direction lies in the image plane: 0 below, from which the angles are measured.
     let forward = view.forward();
-    let in_plane = (-forward.dot(ahead + side)).atan2(forward.y);
-    let flat = (ahead + side).length();
-    let degrees: Vec<f64> = (-9..=9).map(|i| 8.0 * f64::from(i)).collect();
+    let ahead = DVec3::new(forward.x, 0.0, forward.z).normalize();
+    let across = (ahead + 0.4 * ahead.cross(DVec3::Y)).normalize();
+    // The elevation at which the sun's direction lies in the image plane; angles are measured from there.
+    let in_plane = forward.dot(across).atan2(-forward.y);
+    let degrees: Vec<f64> = (-12..=12).filter(|&i| i != 0).map(|i| 8.0 * f64::from(i)).collect();
     through_zero(&degrees)
         .into_iter()
         .map(|angle| {
             let elevation = in_plane + angle.to_radians();
-            (angle, elevation.cos() * (ahead + side) + elevation.sin() * flat.recip() * flat * DVec3::Y)
+            (angle, elevation.cos() * across + elevation.sin() * DVec3::Y)
         })
-        .filter(|(_, direction)| direction.y > 0.1 * direction.length())
+        .filter(|(_, direction)| direction.y > 0.1)
         .map(|(angle, direction)| (format!("{angle:+e} degrees from the image plane"), sun(direction)))
         .collect()
 }
@@ -48,7 +47,7 @@ pub(super) fn suns_across(view: &View) -> Vec<NamedLight> {
 /// Lamps to the right of the camera that move from before it through its plane to behind it, in steps of the unit.
 pub(super) fn lamps_through_the_plane(view: &View, unit: f64) -> Vec<NamedLight> {
     let beside = view.eye() + unit * (5.0 * view.right() + 4.0 * view.up());
-    let steps: Vec<f64> = (-8..=8).map(f64::from).collect();
+    let steps: Vec<f64> = (-8..=8).filter(|&i| i != 0).map(f64::from).collect();
     through_zero(&steps)
         .into_iter()
         .map(|ahead| {

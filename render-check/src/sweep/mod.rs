@@ -10,7 +10,7 @@ use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use serde::Serialize;
 
-pub use cases::{Group, Shot, groups};
+pub use cases::{GROUPS, Group, Shot};
 
 use crate::args::SweepArgs;
 use crate::fitting_table::number;
@@ -43,24 +43,23 @@ pub struct SweepRun {
 ///
 /// When nothing can be drawn, with a message that says what to do; and when a caster is missing from a map.
 pub fn sweep(args: &SweepArgs) -> Result<()> {
-    let gpu = Gpu::new()?;
-    let mut groups = groups()?;
-    let names: Vec<&str> = groups.iter().map(|group| group.name).collect();
-    let names = names.join(", ");
-    groups.retain(|group| args.groups.is_empty() || args.groups.iter().any(|word| group.name.contains(word)));
-    ensure!(!groups.is_empty(), "no group is called that: there are {names}");
+    let is_asked_for = |name: &str| args.groups.is_empty() || args.groups.iter().any(|word| name.contains(word));
+    let groups: Vec<&Group> = GROUPS.iter().filter(|group| is_asked_for(group.name)).collect();
+    ensure!(!groups.is_empty(), "no group is called that: there are {}", GROUPS.map(|group| group.name).join(", "));
     make_directory(&args.out)?;
+    let gpu = Gpu::new()?;
     say(&format!("drawn by {}", gpu.name()));
 
-    let bar = bar("sweeping", groups.iter().map(Group::runs).sum());
     let mut runs = Vec::new();
     let mut summaries = Vec::new();
-    for group in &groups {
-        let of_group = run_group(&gpu, group, || bar.inc(1))?;
-        summaries.push(Summary::of(group, &of_group));
+    for group in groups {
+        let shots = (group.shots)()?;
+        let bar = bar(group.name, shots.iter().map(Shot::runs).sum());
+        let of_group = run_shots(&gpu, group.name, &shots, || bar.inc(1))?;
+        bar.finish_and_clear();
+        summaries.push(Summary::of(group.name, &of_group));
         runs.extend(of_group);
     }
-    bar.finish_and_clear();
     say(&table(&summaries).to_string());
     for summary in &summaries {
         if let Some(worst) = &summary.worst {
@@ -74,21 +73,21 @@ pub fn sweep(args: &SweepArgs) -> Result<()> {
     Ok(())
 }
 
-/// Runs all of a group; `done` is called after each run.
+/// Runs all shots of a group; `done` is called after each run.
 ///
 /// # Errors
 ///
 /// When a case cannot be drawn.
-pub fn run_group(gpu: &Gpu, group: &Group, done: impl Fn()) -> Result<Vec<SweepRun>> {
+pub fn run_shots(gpu: &Gpu, group: &'static str, shots: &[Shot], done: impl Fn()) -> Result<Vec<SweepRun>> {
     let mut runs = Vec::new();
-    for shot in &group.shots {
+    for shot in shots {
         let tracer = Tracer::new(&shot.scene.mesh)?;
         let stage = Stage::new(gpu, &tracer, &shot.view, IMAGE)?;
         for (words, spec) in &shot.lights {
-            let light = stage.light(*spec).with_context(|| format!("{}: {}, {words}", group.name, shot.name))?;
+            let light = stage.light(*spec).with_context(|| format!("{group}: {}, {words}", shot.name))?;
             for options in &shot.options {
                 let run = RunReport::new(&shot.view, &light, options, &run(&stage, &light, options)?);
-                runs.push(SweepRun { group: group.name, case: format!("{}, {words}", shot.name), run });
+                runs.push(SweepRun { group, case: format!("{}, {words}", shot.name), run });
                 done();
             }
         }
@@ -122,10 +121,10 @@ pub struct Summary {
 impl Summary {
     /// Sums up the runs of a group.
     #[must_use]
-    pub fn of(group: &Group, runs: &[SweepRun]) -> Self {
+    pub fn of(group: &'static str, runs: &[SweepRun]) -> Self {
         let (mut faults, mut edges) = (0, 0);
         let mut summary = Self {
-            group: group.name,
+            group,
             maps: 0,
             none: 0,
             compared: 0,
@@ -160,8 +159,8 @@ impl Summary {
 
 impl fmt::Display for SweepRun {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let RunReport { light, class, technique, map_size, clip, .. } = &self.run;
-        write!(f, "{} ({light}, {class}), {technique} {map_size}, {clip:?}", self.case)
+        let RunReport { light, class, technique, map_size, filter, .. } = &self.run;
+        write!(f, "{} ({light}, {class}), {technique} {map_size}, {filter}", self.case)
     }
 }
 
