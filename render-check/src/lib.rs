@@ -1,19 +1,32 @@
-//! Fits shadow maps to real scenes and shows what came of it: a table, and pictures of the camera's view, of the
-//! light's view and of the shadow maps themselves.
+//! Draws scenes with the matrices of `shadowfit` on a graphics card and compares every pixel with ray-traced truth.
 //!
-//! The pictures are ray-cast on the processor, so the tool needs no graphics driver; the data flows down this list:
+//! What the card does is what a renderer does: it draws the casters that culling against H leaves, through the matrix as
+//! the crate gives it, and tests the pixels of a camera's image against the map. What is true is found by rays in f64.
+//! The data flows down this list:
 //!
 //! | module | what it holds |
 //! |---|---|
 //! | [`args`] | the command line |
 //! | [`light`] | a light as a person writes it, and as the fit takes it |
-//! | [`scene`] | the triangles, cameras and lights of a `.glb` file, or of the built-in chess board |
+//! | [`scene`] | the triangles, cameras and lights of a `.glb` file, or of a scene made by code |
 //! | [`trace`] | rays against the triangles |
 //! | [`framing`] | which camera looks at the scene, and its near and far planes |
-//! | [`fitting`] | the calls into `shadowfit`, and their time |
+//! | [`opening`] | all of the above, as every command begins |
+//! | [`gpu`] | the passes on the card: camera, shadow map, shadow test |
+//! | [`verdict`] | the truth about every pixel, and what is wrong with a rendered one |
+//! | [`stage`] | one camera before one scene, drawn |
+//! | [`technique`], [`run`] | one light through one kind of map: fitted, culled, drawn, tested, judged |
+//! | [`report`], [`check_table`] | what is written and printed of it |
 //! | [`picture`] | what is written as PNG |
-//! | [`table`] | what is printed |
-//! | [`check`] | all of it, in order |
+//!
+//! and into the commands:
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`check`] | one scene: every light, every technique, every size |
+//! | [`sweep`] | the hard cases |
+//! | [`walk`] | a camera that moves, and what flickers |
+//! | [`draw`] | the fit alone ([`fitting`], [`fitting_table`]) and pictures of H, by ray casting: needs no card |
 
 #![allow(
     clippy::disallowed_methods,

@@ -1,11 +1,14 @@
 //! A camera that walks, and the pixels that flicker: light and shadow that change though the truth does not.
 
 use anyhow::Result;
+use comfy_table::presets::UTF8_FULL_CONDENSED;
+use comfy_table::{CellAlignment, ContentArrangement, Table};
 use serde::Serialize;
 use shadowfit::View;
 use shadowfit::glam::DQuat;
 
 use crate::args::WalkArgs;
+use crate::fitting_table::number;
 use crate::framing::Camera;
 use crate::gpu::{Gpu, Surfaces, shadow_test};
 use crate::opening::{choose_lights, open, output_directory, place_camera, say, sort};
@@ -29,8 +32,8 @@ pub struct Flicker {
     pub technique: Technique,
     /// Texels along each side.
     pub map_size: u32,
-    /// For each step, the pixels that changed and the pixels that could have.
-    pub steps: Vec<Step>,
+    /// What changed in each step; nothing where one of its two cameras has no map.
+    pub steps: Vec<Option<Step>>,
 }
 
 /// What flickered in a step.
@@ -54,13 +57,14 @@ impl Flicker {
     /// The mean share of pixels that changed in a step.
     #[must_use]
     pub fn mean(&self) -> f64 {
-        self.steps.iter().map(Step::share).sum::<f64>() / self.steps.len().max(1) as f64
+        let shares = self.steps.iter().flatten().map(Step::share);
+        shares.clone().sum::<f64>() / shares.count().max(1) as f64
     }
 
     /// The largest share that changed in a step.
     #[must_use]
     pub fn worst(&self) -> f64 {
-        self.steps.iter().map(Step::share).fold(0.0, f64::max)
+        self.steps.iter().flatten().map(Step::share).fold(0.0, f64::max)
     }
 }
 
@@ -109,19 +113,35 @@ pub fn walk(args: &WalkArgs) -> Result<()> {
     }
     bar.finish_and_clear();
 
-    for flicker in &flickers {
-        say(&format!(
-            "{} {} {}: {:.3} % of pixels change in a step, at worst {:.3} %",
-            flicker.light,
-            flicker.technique,
-            flicker.map_size,
-            100.0 * flicker.mean(),
-            100.0 * flicker.worst()
-        ));
-    }
+    say(&table(&flickers).to_string());
     report::write(&flickers, &out.join("walk.json"))?;
     say(&format!("wrote walk.json to {}", out.display()));
     Ok(())
+}
+
+fn table(flickers: &[Flicker]) -> Table {
+    let mut table = Table::new();
+    table.load_style(UTF8_FULL_CONDENSED).set_content_arrangement(ContentArrangement::Disabled).set_header([
+        "light",
+        "map",
+        "change in a step",
+        "at worst",
+        "steps without a map",
+    ]);
+    let percent = |share: f64| format!("{} %", number(100.0 * share));
+    for flicker in flickers {
+        table.add_row([
+            flicker.light.clone(),
+            format!("{} {}", flicker.technique, flicker.map_size),
+            percent(flicker.mean()),
+            percent(flicker.worst()),
+            flicker.steps.iter().filter(|step| step.is_none()).count().to_string(),
+        ]);
+    }
+    for column in table.column_iter_mut().skip(2) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
 }
 
 /// The depth of what is in the middle of the picture; of the far end of the scene, where nothing is.
@@ -146,11 +166,11 @@ fn compare(
     again: &Surfaces,
     light: &StageLight,
     options: &Options,
-) -> Result<Step> {
+) -> Result<Option<Step>> {
     let (Ok(this_map), Ok(next_map)) =
         (draw_map(here, &light.light, options)?, draw_map(next, &light.light, options)?)
     else {
-        return Ok(Step::default());
+        return Ok(None);
     };
     let before = shadow_test(here.gpu, &here.surfaces, &this_map.shadow_map, options.filter)?.lit;
     let after = shadow_test(here.gpu, again, &next_map.shadow_map, options.filter)?.lit;
@@ -165,5 +185,5 @@ fn compare(
             step.changed += usize::from((before[i] >= 0.5) != (after[i] >= 0.5));
         }
     }
-    Ok(step)
+    Ok(Some(step))
 }

