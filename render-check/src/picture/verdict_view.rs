@@ -72,8 +72,8 @@ fn colour_of(mark: Mark) -> Option<Colour> {
     }
 }
 
-/// How much larger a texel is than a pixel: blue where it is smaller, pale where it is as large, yellow to red where it is
-/// larger. Pixels that are not compared are dark.
+/// How much larger a texel is than a pixel: blue where it is smaller, pale where it is as large, yellow, red and at last
+/// pink where it is larger. Pixels that are not compared are dark.
 #[must_use]
 pub fn aliasing_map(truth: &TruthImage, map: &Map) -> RgbImage {
     let mut image = picture(truth.size(), |index, _| match truth.pixels()[index].compared() {
@@ -103,9 +103,9 @@ const RAMP: [Colour; 10] = [
     [0.90, 0.75, 0.15],
     [0.95, 0.42, 0.03],
     [0.85, 0.14, 0.02],
-    [0.55, 0.02, 0.03],
-    [0.28, 0.01, 0.12],
-    [0.12, 0.01, 0.16],
+    [0.62, 0.01, 0.10],
+    [0.70, 0.05, 0.45],
+    [0.95, 0.45, 0.90],
 ];
 
 fn ramp(aliasing: f64) -> Colour {
@@ -132,4 +132,88 @@ fn picture([width, height]: [u32; 2], colour: impl Fn(usize, f32) -> Colour) -> 
         let index = y as usize * width as usize + x as usize;
         Rgb(colour(index, 1.0 - (y as f32 + 0.5) / height as f32).map(encode))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use shadowfit::ClipSpace;
+    use shadowfit::glam::DVec3;
+
+    use super::*;
+    use crate::trace::{Faces, Tracer};
+    use crate::verdict::fake::{self, Fake, SIZE, SUN};
+
+    fn brightness(image: &RgbImage, index: usize) -> u32 {
+        let [width, _] = SIZE;
+        image.get_pixel(index as u32 % width, index as u32 / width).0.map(u32::from).iter().sum()
+    }
+
+    #[test]
+    fn the_truth_is_bright_in_the_light_and_dark_in_shadow() {
+        let mesh = fake::mesh();
+        let tracer = Tracer::new(&mesh).expect("it has triangles");
+        let (truth, lighting) = (fake::truth(&SUN, &tracer), Lighting::new(SUN, DVec3::ZERO));
+        let image = shaded(&truth, &lighting, &mesh, &truth.lit());
+        let all_lit = shaded(&truth, &lighting, &mesh, &vec![1.0; truth.pixels().len()]);
+        for (index, pixel) in truth.pixels().iter().enumerate() {
+            let [shown, lit] = [&image, &all_lit].map(|image| brightness(image, index));
+            match pixel.compared() {
+                Some((surface, false)) if surface.normal.y > 0.9 => {
+                    assert!(3 * shown < 2 * lit, "{shown} and {lit}")
+                }
+                Some((_, false)) => assert!(shown <= lit),
+                _ => assert_eq!(shown, lit, "shadows change nothing"),
+            }
+        }
+    }
+
+    #[test]
+    fn marks_are_coloured_and_the_rest_is_grey() {
+        let marks = [Mark::Right, Mark::FalseShadow, Mark::FalseLight, Mark::Missing, Mark::EdgeTexel, Mark::Sky];
+        // High enough that the caption leaves the upper half alone.
+        let white = RgbImage::from_pixel(marks.len() as u32, 60, Rgb([255; 3]));
+        let image = difference(&white, &marks);
+        let [ground, red, blue, magenta, amber, sky] = [0, 1, 2, 3, 4, 5].map(|x| image.get_pixel(x, 0).0);
+        assert!(ground == sky && ground[0] == ground[1] && ground[1] == ground[2] && ground[0] < 128, "{ground:?}");
+        assert!(red[0] > 200 && red[1] < 100 && red[2] < 100, "{red:?}");
+        assert!(blue[2] > 200 && blue[0] < 100, "{blue:?}");
+        assert!(magenta[0] > 200 && magenta[2] > 200 && magenta[1] < 50, "{magenta:?}");
+        assert!(amber[0] > amber[1] && amber[1] > amber[2] && amber[0] < 180, "{amber:?}");
+    }
+
+    #[test]
+    fn aliasing_goes_from_blue_over_pale_to_red() {
+        let [fine, even, coarse] = [0.2, 1.0, 10.0].map(ramp);
+        assert!(fine[2] > 2.0 * fine[0] && coarse[0] > 4.0 * coarse[2]);
+        assert!(even.iter().all(|&c| c > 0.7));
+        assert_eq!((ramp(0.01), ramp(f64::INFINITY)), (RAMP[0], RAMP[9]));
+
+        let mesh = fake::mesh();
+        let truth = fake::truth(&SUN, &Tracer::new(&mesh).expect("it has triangles"));
+        let image = aliasing_map(&truth, &fake::fitted(&SUN, &fake::settings()));
+        // But for the caption.
+        for (index, pixel) in truth.pixels().iter().enumerate().take(pixels_above_caption()) {
+            let is_bright = brightness(&image, index) > 250;
+            assert_eq!(is_bright, pixel.compared().is_some(), "pixel {index}");
+        }
+    }
+
+    fn pixels_above_caption() -> usize {
+        (SIZE[0] * (SIZE[1] - 30)) as usize
+    }
+
+    #[test]
+    fn a_reversed_map_looks_like_any_other() {
+        let mesh = fake::mesh();
+        let tracer = Tracer::new(&mesh).expect("it has triangles");
+        let image = |clip: ClipSpace| {
+            let map = fake::fitted(&SUN, &fake::settings().with_clip(clip));
+            let drawn = Fake { faces: Faces::All, ..Fake::default() }.draw(&map, &tracer);
+            stored_map(&map, &drawn)
+        };
+        let [forward, reversed] = [ClipSpace::WGPU, ClipSpace::WGPU.reversed()].map(image);
+        let differs = |(a, b): (&Rgb<u8>, &Rgb<u8>)| a.0[0].abs_diff(b.0[0]) > 1;
+        assert_eq!(forward.pixels().zip(reversed.pixels()).filter(|&pair| differs(pair)).count(), 0);
+        assert!(forward.pixels().any(|texel| texel.0[0] > 200) && forward.pixels().any(|texel| texel.0[0] < 60));
+    }
 }

@@ -1,7 +1,9 @@
-//! A renderer for tests that casts rays: honest triangles, maps and look-ups, made without any of the code under test.
+//! A renderer for tests that casts rays: honest triangles, maps and look-ups, made with matrices alone and without the
+//! geometry under test.
 
 use std::f64::consts::PI;
 
+use rayon::prelude::*;
 use shadowfit::glam::{DMat4, DVec3};
 use shadowfit::{Map, Scene, Settings, View, fit};
 
@@ -25,9 +27,6 @@ pub(crate) const SPOT: LightSpec = LightSpec::Spot {
     cone_degrees: 70.0,
     range: 9.0,
 };
-
-/// Where the middle of the slab's shadow falls under the sun.
-pub(crate) const UNDER_THE_SLAB: DVec3 = DVec3::new(-1.95, 0.0, -0.57);
 
 /// A floor from −5 to 5 at height 0 with its front up, a slab floating over its left half and, with facets large enough
 /// to see, a ball over its right half; each is an object.
@@ -74,6 +73,30 @@ pub(crate) fn mesh_without(object: usize) -> Mesh {
     mesh.triangles.drain(gone.clone());
     mesh.colours.drain(gone);
     mesh
+}
+
+/// The floor alone.
+pub(crate) fn floor() -> Mesh {
+    let mut mesh = mesh_without(2);
+    mesh.triangles.truncate(2);
+    mesh
+}
+
+/// The floor below a fence whose bars are a fifth of a texel wide.
+pub(crate) fn fence() -> Mesh {
+    let bar = [(-0.004, 1.0), (0.004, 1.0), (0.004, -1.0), (-0.004, -1.0)].map(|(x, z)| DVec3::new(x, 1.0, z));
+    let triangles = [[0, 1, 2], [0, 2, 3]];
+    let part = Part { positions: &bar, normals: &[], triangles: &triangles, colour: [0.5; 3] };
+    let floor = floor();
+    let corners: Vec<DVec3> =
+        floor.triangles.iter().flatten().map(|&corner| floor.vertices[corner as usize]).collect();
+    let mut builder = MeshBuilder::default();
+    builder.add(&Part { positions: &corners, triangles: &[[0, 1, 2], [3, 4, 5]], ..part }, DMat4::IDENTITY);
+    for i in -10..=10 {
+        let turn = DMat4::from_rotation_y(0.2 + 0.01 * f64::from(i));
+        builder.add(&part, DMat4::from_translation(0.237 * f64::from(i) * DVec3::X) * turn);
+    }
+    builder.finish().0
 }
 
 /// Looks down on the middle of the floor.
@@ -147,7 +170,7 @@ impl Fake {
             let depth = depth.clamp(0.0, 1.0) as f32;
             if is_reversed { 1.0 - depth } else { depth }
         };
-        (0..size).flat_map(|y| (0..size).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect()
+        (0..size * size).into_par_iter().map(|i| texel(i % size, i / size)).collect()
     }
 
     /// The share of the light in each pixel.
@@ -181,13 +204,17 @@ impl Fake {
         Rendered { map, lit, depths, faces: self.faces, bias: self.bias, depth_step: 1e-7, reach }
     }
 
-    /// Draws `casters` into a map, lights the whole mesh by it and compares.
+    /// Draws `casters` into a map, lights the usual mesh by it and compares.
     pub(crate) fn verdict(&self, light: &LightSpec, map: &Map, casters: &Mesh) -> Verdict {
-        let mesh = mesh();
-        let tracer = Tracer::new(&mesh).expect("it has triangles");
+        self.verdict_on(&mesh(), light, map, casters)
+    }
+
+    /// The same with another mesh to light.
+    pub(crate) fn verdict_on(&self, mesh: &Mesh, light: &LightSpec, map: &Map, casters: &Mesh) -> Verdict {
+        let tracer = Tracer::new(mesh).expect("it has triangles");
         let truth = truth(light, &tracer);
         let depths = self.draw(map, &Tracer::new(casters).expect("it has triangles"));
-        let lit = self.light(map, &depths, &truth, &mesh);
+        let lit = self.light(map, &depths, &truth, mesh);
         judge(&truth, &self.hand_over(map, &depths, &lit), &tracer).expect("sound inputs")
     }
 }

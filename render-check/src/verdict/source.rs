@@ -62,7 +62,7 @@ impl Source {
             self.distance_from(point) - self.light.near()
         } else {
             // Half a diagonal leads out of the box from its middle; a whole one leaves no doubt.
-            let (min, max) = tracer.mesh().bounds();
+            let (min, max) = tracer.bounds();
             point.distance(0.5 * (min + max)) + (max - min).length()
         };
         let origin = point + length * direction_to_light;

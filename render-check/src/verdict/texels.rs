@@ -101,3 +101,72 @@ fn steps_on_plane(first: DVec3, second: DVec3, normal: DVec3) -> Option<[DVec3; 
     let volume = first.dot(second.cross(normal));
     (volume != 0.0).then(|| [second.cross(normal) / volume, normal.cross(first) / volume])
 }
+
+#[cfg(test)]
+mod tests {
+    use shadowfit::Warp;
+
+    use super::*;
+    use crate::picture::Lens;
+    use crate::verdict::fake::{self, LAMP, SUN};
+
+    #[test]
+    fn places_on_a_plane_are_where_they_should_be() {
+        let (normal, point) = (DVec3::new(0.2, 0.9, -0.3).normalize(), DVec3::new(0.4, 0.2, -0.6));
+        for (light, warp) in [(SUN, Warp::Uniform), (SUN, Warp::Perspective), (LAMP, Warp::Perspective)] {
+            let map = fake::fitted(&light, &fake::settings().with_warp(warp));
+            let texels = Texels::new(&map, fake::view().eye());
+            let lens = Lens::new(map.shadow_from_world_in(ClipSpace::WGPU)).expect("invertible");
+            let place = texels.place(point).expect("in the map");
+            let clip = lens.project(point);
+            let expected = DVec3::new(128.0 * (1.0 + clip.x), 128.0 * (1.0 - clip.y), clip.z);
+            assert!((place - expected).length() < 1e-10, "{place}, not {expected}");
+            assert_eq!(texels.index(place.truncate()), Some(place.y as usize * 256 + place.x as usize));
+
+            let slopes = texels.slopes(point, normal).expect("not seen from its edge");
+            for (step, slope) in [(DVec2::X, slopes.x), (DVec2::Y, slopes.y), (-7.5 * DVec2::Y, 7.5 * slopes.y)] {
+                let aside = texels.on_plane(point, normal, place.truncate() + step).expect("it meets the plane");
+                assert!((aside - point).dot(normal).abs() < 1e-12);
+                let aside = texels.place(aside).expect("in the map");
+                assert!((aside.truncate() - place.truncate() - step).length() < 1e-9, "{aside}");
+                assert!(((aside.z - place.z).abs() - slope).abs() < 1e-12, "{} and {slope}", aside.z - place.z);
+            }
+        }
+    }
+
+    #[test]
+    fn a_plane_seen_from_its_edge_is_endlessly_steep() {
+        let map = fake::fitted(&SUN, &fake::settings());
+        let texels = Texels::new(&map, fake::view().eye());
+        let slopes = texels.slopes(DVec3::new(0.4, 0.2, -0.6), DVec3::new(1.0, -0.5, 0.0).normalize());
+        assert!(slopes.is_none_or(|slopes| slopes.max_element() > 1e9), "{slopes:?}");
+    }
+
+    #[test]
+    fn what_is_beside_the_map_has_no_texel() {
+        let map = fake::fitted(&SUN, &fake::settings());
+        let texels = Texels::new(&map, fake::view().eye());
+        for outside in [DVec2::new(-0.1, 3.0), DVec2::new(3.0, 256.0), DVec2::new(f64::NAN, 3.0)] {
+            assert_eq!(texels.index(outside), None);
+        }
+        assert_eq!(texels.index(DVec2::new(255.9, 1.0)), Some(511));
+    }
+
+    #[test]
+    fn rounding_covers_what_the_f32_matrix_does() {
+        let map = fake::fitted(&LAMP, &fake::settings());
+        let texels = Texels::new(&map, fake::view().eye());
+        let matrix = map.matrix();
+        for i in 0..1000 {
+            let point =
+                DVec3::new(f64::from(i % 10) - 4.5, 0.13 * f64::from(i / 100), 0.7 - f64::from(i / 10 % 10)) * 0.77;
+            let clip = matrix * point.as_vec3().extend(1.0);
+            let clip = (clip.truncate() / clip.w).as_dvec3();
+            let place = texels.place(point).expect("in the map");
+            let (across, depth) = texels.rounding(point);
+            let off = (DVec3::new(128.0 * (1.0 + clip.x), 128.0 * (1.0 - clip.y), clip.z) - place).abs();
+            assert!(off.x <= across && off.y <= across && off.z <= depth, "{off} and {across}, {depth}");
+            assert!(across < 1e-2 && depth < 1e-4, "{across}, {depth}");
+        }
+    }
+}
