@@ -11,8 +11,8 @@ use crate::scene::Mesh;
 
 /// The triangles of a mesh in f32, three vertices each, so that the number of a vertex tells its triangle.
 pub struct Geometry {
-    pub(super) vertices: wgpu::Buffer,
-    pub(super) vertex_count: u32,
+    pub(super) buffer: wgpu::Buffer,
+    vertex_count: u32,
     origin: DVec3,
 }
 
@@ -39,16 +39,21 @@ impl Geometry {
             mesh.triangles.len()
         );
         let usage = wgpu::BufferUsages::VERTEX;
-        let vertices = gpu.guarded("the triangles", || {
+        let buffer = gpu.guarded("the triangles", || {
             Ok(gpu.device.create_buffer_init(&BufferInitDescriptor { label: None, contents, usage }))
         })?;
-        Ok(Self { vertices, vertex_count: 3 * mesh.triangles.len() as u32, origin })
+        Ok(Self { buffer, vertex_count: 3 * mesh.triangles.len() as u32, origin })
     }
 
     /// What positions on the card are relative to, in world space.
     #[must_use]
     pub fn origin(&self) -> DVec3 {
         self.origin
+    }
+
+    /// All vertices.
+    pub(super) fn vertices(&self) -> Range<u32> {
+        0..self.vertex_count
     }
 
     /// The vertices of a range of triangles.

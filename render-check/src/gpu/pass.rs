@@ -67,6 +67,9 @@ pub(super) fn depth_state(
     }
 }
 
+/// The vertices of the triangle that covers a target.
+pub(super) const FULL_SCREEN: Range<u32> = 0..3;
+
 /// What a pass draws, with what, and where to.
 pub(super) struct Pass<'a> {
     pub(super) pipeline: &'a wgpu::RenderPipeline,
@@ -102,7 +105,7 @@ impl Pass<'_> {
             pass.set_pipeline(self.pipeline);
             pass.set_bind_group(0, self.bindings, &[]);
             if let Some(geometry) = self.geometry {
-                pass.set_vertex_buffer(0, geometry.vertices.slice(..));
+                pass.set_vertex_buffer(0, geometry.buffer.slice(..));
             }
             for vertices in self.draws {
                 pass.draw(vertices.clone(), 0..1);

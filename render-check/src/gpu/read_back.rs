@@ -3,7 +3,7 @@
 use anyhow::{Context, Result};
 use bytemuck::Pod;
 
-use super::pass::{Pass, PipelineKind};
+use super::pass::{FULL_SCREEN, Pass, PipelineKind};
 use super::{Gpu, shaders};
 
 /// The bytes of a buffer that can be mapped, once all work so far is done.
@@ -64,7 +64,7 @@ pub(super) fn depths(gpu: &Gpu, view: &wgpu::TextureView, size: u32) -> Result<V
         colours: &[&copy_view],
         depth: None,
         geometry: None,
-        draws: &[0..3],
+        draws: &[FULL_SCREEN],
     };
     pass.run(gpu)?;
     texels(gpu, &copy)

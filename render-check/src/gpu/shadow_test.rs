@@ -7,7 +7,7 @@ use anyhow::Result;
 use shadowfit::glam::{Mat4, Vec3};
 use shadowfit::{ClipSpace, TextureOrigin, YAxis};
 
-use super::pass::{Pass, PipelineKind};
+use super::pass::{FULL_SCREEN, Pass, PipelineKind};
 use super::{Gpu, ShadowMap, Surfaces, read_back, shaders};
 
 /// How a shadow map is read.
@@ -123,7 +123,7 @@ fn shadow_test_unguarded(
         colours: &[&lit_view],
         depth: None,
         geometry: None,
-        draws: &[0..3],
+        draws: &[FULL_SCREEN],
     };
     let time = pass.run(gpu)?;
     Ok(Shadows { lit: read_back::texels(gpu, &lit)?, time })

@@ -56,7 +56,7 @@ impl Surfaces {
             colours: &[&positions, &triangles_view],
             depth: Some((&depth, 0.0)),
             geometry: Some(geometry),
-            draws: &[0..geometry.vertex_count],
+            draws: &[geometry.vertices()],
         };
         let time = pass.run(gpu)?;
         // Pixels that nothing was drawn to hold zeros, as triangle 0 does: numbers on the card are one higher.

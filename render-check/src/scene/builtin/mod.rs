@@ -1,6 +1,9 @@
 //! The scenes that need no file: made by code, each showing one thing.
 
+mod behind;
 mod chess_board;
+mod ground;
+mod room;
 mod solids;
 
 use super::LoadedScene;
@@ -17,8 +20,21 @@ pub struct BuiltIn {
 }
 
 /// All of them.
-pub const BUILT_IN: [BuiltIn; 1] = [BuiltIn {
-    name: "chess-board",
-    shows: "a long board with pieces from a low camera, as in the paper's Fig. 1",
-    make: chess_board::make,
-}];
+pub const BUILT_IN: [BuiltIn; 4] = [
+    BuiltIn {
+        name: "chess-board",
+        shows: "a long board with pieces from a low camera, as in the paper's Fig. 1",
+        make: chess_board::make,
+    },
+    BuiltIn {
+        name: "behind",
+        shows: "a square in a low sun, with the shadows of things that stand behind the viewer",
+        make: behind::make,
+    },
+    BuiltIn {
+        name: "room",
+        shows: "a room from inside, with a lamp above the view and the sun in the window",
+        make: room::make,
+    },
+    BuiltIn { name: "ground", shows: "a flat plate without any height and nothing on it", make: ground::make },
+];

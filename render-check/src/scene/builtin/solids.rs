@@ -104,6 +104,53 @@ pub(super) fn add_cut_out(
     builder.add(&Part { positions: &positions, normals: &flat, triangles: &triangles, colour }, world_from_solid);
 }
 
+/// Adds a board with a rectangular opening, between two z coordinates: a wall with a window, a frame. The rectangles
+/// are given as their least and greatest corners, and the opening lies inside the outline.
+pub(super) fn add_board_with_opening(
+    builder: &mut MeshBuilder,
+    outline: [DVec2; 2],
+    opening: [DVec2; 2],
+    [back, front]: [f64; 2],
+    world_from_solid: DMat4,
+    colour: [f32; 3],
+) {
+    let corners = |[min, max]: [DVec2; 2]| [min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)];
+    let (outer, inner) = (corners(outline), corners(opening));
+    let mut quads = Vec::new();
+    for i in 0..4 {
+        let j = (i + 1) % 4;
+        quads.push([outer[i], outer[j], inner[j], inner[i]].map(|p| p.extend(front)));
+        quads.push([outer[j], outer[i], inner[i], inner[j]].map(|p| p.extend(back)));
+        // Each pair of corners runs so that the solid lies to its left.
+        for [a, b] in [[outer[i], outer[j]], [inner[j], inner[i]]] {
+            quads.push([a.extend(front), a.extend(back), b.extend(back), b.extend(front)]);
+        }
+    }
+    add_quads(builder, &quads, world_from_solid, colour);
+}
+
+/// Adds a paving slab: a box between two corners whose sides lean in towards its foot by `inset`, so that slabs laid
+/// edge to edge share their upper edges but no face.
+pub(super) fn add_slab(builder: &mut MeshBuilder, min: DVec3, max: DVec3, inset: f64, colour: [f32; 3]) {
+    let ring = |y: f64, inset: f64| {
+        let (left, right, far, near) = (min.x + inset, max.x - inset, min.z + inset, max.z - inset);
+        [(left, near), (right, near), (right, far), (left, far)].map(|(x, z)| DVec3::new(x, y, z))
+    };
+    let (foot, top) = (ring(min.y, inset), ring(max.y, 0.0));
+    let mut quads = vec![top, [foot[3], foot[2], foot[1], foot[0]]];
+    quads.extend([0, 1, 2, 3].map(|i: usize| (i, (i + 1) % 4)).map(|(i, j)| [foot[i], foot[j], top[j], top[i]]));
+    add_quads(builder, &quads, DMat4::IDENTITY, colour);
+}
+
+/// Adds flat faces of four corners each, counter-clockwise seen from the front, as one part.
+fn add_quads(builder: &mut MeshBuilder, quads: &[[DVec3; 4]], world_from_solid: DMat4, colour: [f32; 3]) {
+    let first_of_quad = (0..quads.len() as u32).map(|quad| 4 * quad);
+    let triangles: Vec<[u32; 3]> =
+        first_of_quad.flat_map(|first| [[first, first + 1, first + 2], [first, first + 2, first + 3]]).collect();
+    let part = Part { positions: quads.as_flattened(), normals: &[], triangles: &triangles, colour };
+    builder.add(&part, world_from_solid);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -141,5 +188,21 @@ mod tests {
         let mut builder = MeshBuilder::default();
         add_box(&mut builder, DVec3::new(-1.0, 2.0, 3.0), DVec3::new(1.0, 5.0, 7.0), DMat4::IDENTITY, [1.0; 3]);
         assert!((volume(builder) - 24.0).abs() < 1e-9);
+    }
+    #[test]
+    fn a_board_with_an_opening_is_closed_and_faces_outwards() {
+        let rectangle = |min: (f64, f64), max: (f64, f64)| [min, max].map(DVec2::from);
+        let mut builder = MeshBuilder::default();
+        let (outline, opening) = (rectangle((-1.0, 0.0), (4.0, 3.0)), rectangle((1.0, 1.0), (3.0, 2.5)));
+        add_board_with_opening(&mut builder, outline, opening, [5.0, 5.5], DMat4::IDENTITY, [1.0; 3]);
+        assert!((volume(builder) - 0.5 * (15.0 - 3.0)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_slab_is_closed_and_faces_outwards() {
+        let mut builder = MeshBuilder::default();
+        add_slab(&mut builder, DVec3::new(2.0, -0.5, 3.0), DVec3::new(4.0, 0.0, 6.0), 0.5, [1.0; 3]);
+        // A frustum between a top of 2 × 3 and a foot of 1 × 2, by the prismatoid's rule with 1.5 × 2.5 in the middle.
+        assert!((volume(builder) - 0.5 / 6.0 * (6.0 + 4.0 * 3.75 + 2.0)).abs() < 1e-9);
     }
 }
