@@ -232,7 +232,7 @@ fn fit_visible(
         settings: *settings,
         camera,
         window: Window::new(&window, &padded, settings.inner()),
-        depth: DepthSpan::new(&rays, along.middle(), &padded_depth),
+        depth: DepthSpan::new(&rays, along.middle(), &padded_depth, rounding.in_depth(&padded_depth)),
         weakening,
         warp_ratio: ratio.max / ratio.min,
     })

@@ -75,18 +75,22 @@ pub struct DepthSpan {
     /// Distance of the far plane, likewise; infinite where padding has moved it beyond every point.
     #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
     pub far: f64,
+    /// How far f32 can carry the depth of anything visible, in the matrix and in positions, where the depth range is 1:
+    /// the noise that a bias must cover besides the depth format's own. At most about 2⁻²⁰, as shorter ranges are made
+    /// longer, unless f32 cannot tell the scene's points apart at all.
+    pub rounding: f64,
 }
 
 impl DepthSpan {
     /// From depths of the homography, whose depth 0 is at distance `zero` along the axis.
-    pub(crate) fn new(rays: &Rays, zero: f64, depth: &Interval) -> Self {
+    pub(crate) fn new(rays: &Rays, zero: f64, depth: &Interval, rounding: f64) -> Self {
         // On the ray in the middle c is w: z = along − zero for a directional light, 1 − zero/along for any other.
         let along = |z: f64| match rays.local {
             true if z < 1.0 => zero / (1.0 - z),
             true => f64::INFINITY,
             false => zero + z,
         };
-        Self { near: along(depth.min), far: along(depth.max) }
+        Self { near: along(depth.min), far: along(depth.max), rounding }
     }
 }
 

@@ -61,6 +61,12 @@ impl Worst {
 /// window as padding and no more: beyond that the map is for what is visible.
 const MOST_FOR_LOCAL_CASTERS: f64 = 1.0 / 1024.0;
 
+/// A depth range is at least so many times as long as the rounding in it. All that is visible of a flat scene under a
+/// light from straight above has one depth; were its range no longer than needed, there would be nothing but noise in
+/// it, and every point would shadow itself. With this, noise is at most 16 steps of 24 bits or a 16th of a step of 16,
+/// which any bias covers, while a range is never longer than about what the coordinates of the scene are large.
+const QUIET: f64 = 1_048_576.0;
+
 impl Rounding {
     /// No points yet; positions are taken relative to `origin`.
     pub(crate) fn new(map: &Homography, rays: &Rays, origin: DVec3) -> Self {
@@ -117,7 +123,7 @@ impl Rounding {
     }
 
     /// A depth range that holds `depth` after rounding, no shorter than `least`, nor so short that the rounding of what
-    /// is visible would be more than a thousandth of it.
+    /// is visible would be more than a millionth of it.
     pub(crate) fn padded_depth(&self, depth: &Interval, least: f64) -> Interval {
         let length = depth.max - depth.min;
         // Twice the rounding of z and of w, at either end that of what lies there; casters next to a light may at most
@@ -125,8 +131,13 @@ impl Rounding {
         let pad = |worst: &Worst| 2.0 * (worst.of_depth(depth.min) + length * worst.w);
         let far = pad(&self.visible);
         let near = far.max(pad(&self.casting).min(length));
-        let shortest = least.max(1024.0 * self.visible.of_depth(depth.min));
+        let shortest = least.max(QUIET * self.visible.of_depth(depth.min));
         let missing = 0.5 * (shortest - (length + near + far)).max(0.0);
         Interval { min: depth.min - near - missing, max: depth.max + far + missing }
+    }
+
+    /// Rounding of the depth of what is visible in a depth range, relative to its length.
+    pub(crate) fn in_depth(&self, depth: &Interval) -> f64 {
+        self.visible.of_depth(depth.min) / (depth.max - depth.min) + self.visible.w
     }
 }

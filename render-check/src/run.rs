@@ -54,8 +54,8 @@ impl Options {
         }
     }
 
-    fn pass(&self) -> MapPass {
-        let bias = self.bias.unwrap_or_else(|| enough_bias(self.format, self.filter));
+    fn pass(&self, map: &Map) -> MapPass {
+        let bias = self.bias.unwrap_or_else(|| enough_bias(self.format, self.filter, map.depth().rounding));
         MapPass { format: self.format, faces: self.faces, bias }
     }
 
@@ -74,11 +74,10 @@ impl Options {
 /// down; the hardware's slope is the greater of the two changes of depth a texel, so the plane's depth differs by at most
 /// twice the reach times it. The rasteriser places vertices to a 256th of a texel and interpolates across small triangles
 /// with that error, for which an eighth of a texel is added. The constant is for rounding: of the stored value, half a
-/// step; and of positions, matrix and division in f32, some 2⁻²⁴ each, together taken as 8 of them.
+/// step; and of the two depths compared in f32, as the map says.
 #[must_use]
-pub fn enough_bias(format: DepthFormat, filter: Filter) -> Bias {
-    let rounding = 8.0 * 2_f64.powi(-24);
-    let constant = 1 + (rounding / Bias::step(format)).ceil() as i32;
+pub fn enough_bias(format: DepthFormat, filter: Filter, rounding: f64) -> Bias {
+    let constant = (0.5 + 2.0 * rounding / Bias::steps(format).least).ceil() as i32;
     Bias { constant, slope: 2.0 * filter.reach() as f32 + 0.125 }
 }
 
@@ -144,7 +143,7 @@ pub fn draw_map(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<R
         triangles,
         of_triangles: mesh.triangles.len(),
     };
-    let shadow_map = ShadowMap::draw(stage.gpu, &stage.geometry, &casters, &map, &options.pass())?;
+    let shadow_map = ShadowMap::draw(stage.gpu, &stage.geometry, &casters, &map, &options.pass(&map))?;
     Ok(Ok(DrawnMap { map, shadow_map, drawn }))
 }
 
@@ -220,15 +219,14 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
     // A fit takes a few hundred times less than a frame.
     let fits = 300 * options.frames as usize - 299;
     let fit_time = median_time(fits, || fit(&stage.view, &light.light, &stage.bounds, &settings));
-    let pass = options.pass();
-    let step = Bias::step(pass.format);
+    let pass = options.pass(&map);
     let rendered = Rendered {
         map: &map,
         lit: &lit,
         depths: &depths,
         faces: pass.faces,
-        bias: verdict::Bias { constant: f64::from(pass.bias.constant) * step, slope: pass.bias.slope.into() },
-        depth_step: step,
+        bias: verdict::Bias::most(&pass),
+        depth_step: pass.format.step(1.0),
         reach: options.filter.reach(),
     };
     let verdict = verdict::judge(&light.truth, &rendered, stage.tracer)?;

@@ -227,14 +227,13 @@ fn judged(stage: &Stage<'_>, light: &StageLight, map: &Map, casters: &[std::ops:
     let shadow_map = ShadowMap::draw(stage.gpu, &stage.geometry, casters, map, &pass).expect("drawn");
     let lit = shadow_test(stage.gpu, &stage.surfaces, &shadow_map, Filter::Nearest).expect("tested").lit;
     let depths = shadow_map.depths(stage.gpu).expect("readable");
-    let step = Bias::step(pass.format);
     let rendered = Rendered {
         map,
         lit: &lit,
         depths: &depths,
         faces: pass.faces,
-        bias: verdict::Bias { constant: 9.0 * step, slope: 1.125 },
-        depth_step: step,
+        bias: verdict::Bias::most(&pass),
+        depth_step: pass.format.step(1.0),
         reach: Filter::Nearest.reach(),
     };
     judge(&light.truth, &rendered, stage.tracer).expect("as it was drawn")
@@ -270,7 +269,7 @@ fn a_caster_before_the_near_plane_is_found_missing() {
     let low = Scene::from_box(min, DVec3::new(max.x, 0.2, max.z)).expect("sound");
     let settings = Settings::new(512, IMAGE[1]).expect("sound").with_origin(Origin::Eye);
     let map = *fit(&view, &light.light, &low, &settings).map().expect("one map does");
-    let all = [0..scene.mesh.triangles.len() as u32];
-    let counts = judged(&stage, &light, &map, &all).counts;
+    let all = 0..scene.mesh.triangles.len() as u32;
+    let counts = judged(&stage, &light, &map, std::slice::from_ref(&all)).counts;
     assert!(counts.missing > 100 && counts.missing > 9 * counts.false_light, "{counts:?}");
 }

@@ -24,15 +24,27 @@ impl Bias {
     /// No bias.
     pub const NONE: Self = Self { constant: 0, slope: 0.0 };
 
-    /// The depth of one step: the format's own for fixed point; for floating point that of the greatest depth of the
-    /// triangle, here of 1.
+    /// The depth of one step. In fixed point a driver may take twice the format's own step for one (Mesa's software
+    /// driver does); in floating point it is that of the greatest depth of the triangle, here between a quarter, below
+    /// which a map holds little, and 2, which a triangle that reaches out of the map can have.
     #[must_use]
-    pub fn step(format: DepthFormat) -> f64 {
+    pub fn steps(format: DepthFormat) -> Steps {
         match format {
-            DepthFormat::Unorm16 | DepthFormat::Unorm24 => format.step(1.0),
-            DepthFormat::Float32 => f64::from(f32::EPSILON) / 2.0,
+            DepthFormat::Unorm16 | DepthFormat::Unorm24 => {
+                Steps { least: format.step(1.0), most: 2.0 * format.step(1.0) }
+            }
+            DepthFormat::Float32 => Steps { least: 2_f64.powi(-25), most: 2_f64.powi(-23) },
         }
     }
+}
+
+/// What one step of bias may be, in depth, where the map's depth range is 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Steps {
+    /// At least.
+    pub least: f64,
+    /// At most.
+    pub most: f64,
 }
 
 /// How casters are drawn into a map.

@@ -128,3 +128,23 @@ fn what_the_card_cannot_hold_is_an_error() {
     let error = Surfaces::draw(&gpu, &geometry, &view, [too_wide, 1]).err().expect("too wide");
     assert!(format!("{error:#}").contains("the camera's view"), "{error:#}");
 }
+
+#[test]
+fn a_step_of_bias_is_what_it_is_said_to_be() {
+    let stage = stage(ClipSpace::WGPU);
+    for format in [DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32] {
+        let depths = |constant| {
+            let (_, shadow_map) = draw_all(&stage, format, Bias { constant, slope: 0.0 });
+            shadow_map.depths(&stage.gpu).expect("readable")
+        };
+        let steps = 500;
+        let Steps { least, most } = Bias::steps(format);
+        for (after, before) in depths(steps).iter().zip(&depths(0)) {
+            // Floating point has finer steps nearer to zero; at the far end the depth buffer ends.
+            if (0.25..0.98).contains(before) {
+                let step = f64::from(after - before) / f64::from(steps);
+                assert!((0.99 * least..=1.01 * most).contains(&step), "{format:?}: {step} at {before}");
+            }
+        }
+    }
+}

@@ -26,10 +26,11 @@ pub use report::{Aliasing, Counts, Mark, Verdict};
 pub use surface::Surface;
 pub use truth::{Illumination, Truth, TruthImage};
 
+use crate::gpu::{self, MapPass};
 use crate::trace::{Faces, Tracer};
 use texels::Texels;
 
-/// What a rasteriser added to the depths of a map, away from the light.
+/// What a rasteriser added at most to the depths of a map, away from the light.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bias {
     /// This much depth, where the map's depth range is 1.
@@ -37,6 +38,15 @@ pub struct Bias {
     /// This many times the larger of the depth's changes from one column of texels to the next and from one row to the
     /// next.
     pub slope: f64,
+}
+
+impl Bias {
+    /// The most that a card can have added in a pass.
+    #[must_use]
+    pub fn most(pass: &MapPass) -> Self {
+        let step = gpu::Bias::steps(pass.format).most;
+        Self { constant: f64::from(pass.bias.constant) * step, slope: pass.bias.slope.into() }
+    }
 }
 
 /// What a renderer hands over, but for the triangles, which the truth was traced from.

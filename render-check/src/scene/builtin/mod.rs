@@ -3,8 +3,10 @@
 mod behind;
 mod chess_board;
 mod ground;
+mod leaves;
 mod room;
 mod solids;
+mod street;
 
 use super::LoadedScene;
 
@@ -20,16 +22,26 @@ pub struct BuiltIn {
 }
 
 /// All of them.
-pub const BUILT_IN: [BuiltIn; 4] = [
+pub const BUILT_IN: [BuiltIn; 6] = [
     BuiltIn {
         name: "chess-board",
         shows: "a long board with pieces from a low camera, as in the paper's Fig. 1",
         make: chess_board::make,
     },
     BuiltIn {
+        name: "street",
+        shows: "a street of nearly 400 m from a person's height: much depth in one picture",
+        make: street::make,
+    },
+    BuiltIn {
         name: "behind",
         shows: "a square in a low sun, with the shadows of things that stand behind the viewer",
         make: behind::make,
+    },
+    BuiltIn {
+        name: "leaves",
+        shows: "a tree of single leaf sheets over a bench: casters that are thin, dense and open",
+        make: leaves::make,
     },
     BuiltIn {
         name: "room",

@@ -151,6 +151,100 @@ fn add_quads(builder: &mut MeshBuilder, quads: &[[DVec3; 4]], world_from_solid: 
     builder.add(&part, world_from_solid);
 }
 
+/// Adds several boxes, each between its least and its greatest corner, as one object.
+pub(super) fn add_boxes(
+    builder: &mut MeshBuilder,
+    boxes: &[[DVec3; 2]],
+    world_from_solid: DMat4,
+    colour: [f32; 3],
+) {
+    /// The corners of each side, counter-clockwise from outside; a bit of a corner's number picks the greater end.
+    const SIDES_OF_BOX: [[u32; 4]; 6] =
+        [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let mut positions = Vec::new();
+    let mut triangles = Vec::new();
+    for [min, max] in boxes {
+        let first = positions.len() as u32;
+        let end = |corner: u32, bit: u32, ends: [f64; 2]| ends[(corner >> bit & 1) as usize];
+        positions.extend(
+            (0..8).map(|i| {
+                DVec3::new(end(i, 0, [min.x, max.x]), end(i, 1, [min.y, max.y]), end(i, 2, [min.z, max.z]))
+            }),
+        );
+        triangles.extend(SIDES_OF_BOX.iter().flat_map(|side| {
+            let [a, b, c, d] = side.map(|corner| first + corner);
+            [[a, b, c], [a, c, d]]
+        }));
+    }
+    builder.add(&Part { positions: &positions, normals: &[], triangles: &triangles, colour }, world_from_solid);
+}
+
+/// Adds several straight round bars as one object. Each is given by its two ends with the radius there, which is not
+/// zero. A bar has few sides: it is meant for what is thin.
+pub(super) fn add_bars(
+    builder: &mut MeshBuilder,
+    bars: &[[(DVec3, f64); 2]],
+    world_from_solid: DMat4,
+    colour: [f32; 3],
+) {
+    const SIDES_OF_BAR: u32 = 8;
+    let mut positions = Vec::new();
+    let mut normals = Vec::new();
+    let mut triangles = Vec::new();
+    for ends in bars {
+        let axis = (ends[1].0 - ends[0].0).normalize_or(DVec3::Y);
+        let across = axis.any_orthonormal_vector();
+        let around = axis.cross(across);
+        // Four rings: the foot's disc, the round side's lower and upper edge, the top's disc.
+        let first = positions.len() as u32;
+        for ((centre, radius), disc) in
+            [(ends[0], Some(-axis)), (ends[0], None), (ends[1], None), (ends[1], Some(axis))]
+        {
+            for side in 0..SIDES_OF_BAR {
+                let (sin, cos) = (TAU * f64::from(side) / f64::from(SIDES_OF_BAR)).sin_cos();
+                let outward = across * cos + around * sin;
+                positions.push(centre + radius * outward);
+                normals.push(disc.unwrap_or(outward).as_vec3());
+            }
+        }
+        let corner = |ring: u32, side: u32| first + ring * SIDES_OF_BAR + side % SIDES_OF_BAR;
+        for side in 0..SIDES_OF_BAR {
+            triangles.push([corner(1, side), corner(1, side + 1), corner(2, side + 1)]);
+            triangles.push([corner(1, side), corner(2, side + 1), corner(2, side)]);
+        }
+        for side in 1..SIDES_OF_BAR - 1 {
+            triangles.push([corner(0, 0), corner(0, side + 1), corner(0, side)]);
+            triangles.push([corner(3, 0), corner(3, side), corner(3, side + 1)]);
+        }
+    }
+    builder
+        .add(&Part { positions: &positions, normals: &normals, triangles: &triangles, colour }, world_from_solid);
+}
+
+/// A number from 0 up to 1 that looks random, the same each time for the same thing and the same property of it.
+pub(super) fn scattered(thing: u32, property: u32) -> f64 {
+    let mut bits = thing.wrapping_mul(0x9e37_79b9) ^ property.wrapping_add(1).wrapping_mul(0x85eb_ca6b);
+    for factor in [0x7feb_352d, 0x846c_a68b, 1] {
+        bits = (bits ^ (bits >> 16)).wrapping_mul(factor);
+    }
+    f64::from(bits) / (f64::from(u32::MAX) + 1.0)
+}
+
+/// How many edges of an object's triangles have no neighbour: none, where it is closed. Corners less than a micrometre
+/// apart count as one, if the unit is a metre.
+#[cfg(test)]
+pub(super) fn open_edges(mesh: &crate::scene::Mesh, object: &crate::scene::Object) -> usize {
+    let mut balance = std::collections::HashMap::new();
+    for triangle in object.triangles.clone() {
+        let corners = mesh.corners(triangle as usize).map(|p| p.to_array().map(|x| (x * 1e6).round() as i64));
+        for (a, b) in [(0, 1), (1, 2), (2, 0)] {
+            *balance.entry([corners[a].min(corners[b]), corners[a].max(corners[b])]).or_insert(0) +=
+                if corners[a] < corners[b] { 1 } else { -1 };
+        }
+    }
+    balance.values().filter(|&&sum| sum != 0).count()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -204,5 +298,39 @@ mod tests {
         add_slab(&mut builder, DVec3::new(2.0, -0.5, 3.0), DVec3::new(4.0, 0.0, 6.0), 0.5, [1.0; 3]);
         // A frustum between a top of 2 × 3 and a foot of 1 × 2, by the prismatoid's rule with 1.5 × 2.5 in the middle.
         assert!((volume(builder) - 0.5 / 6.0 * (6.0 + 4.0 * 3.75 + 2.0)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn boxes_in_one_object_are_closed_and_face_outwards() {
+        let boxes =
+            [[DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0)], [DVec3::new(4.0, -1.0, 0.0), DVec3::new(6.0, 0.0, 1.0)]];
+        let mut builder = MeshBuilder::default();
+        add_boxes(&mut builder, &boxes, DMat4::IDENTITY, [1.0; 3]);
+        assert!((volume(builder) - 8.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_bar_is_closed_and_faces_outwards() {
+        let bar = [(DVec3::new(1.0, 2.0, -3.0), 0.2), (DVec3::new(-1.0, 0.5, -3.5), 0.1)];
+        let mut builder = MeshBuilder::default();
+        add_bars(&mut builder, &[bar], DMat4::IDENTITY, [1.0; 3]);
+        let (mesh, _) = builder.finish();
+        assert_eq!(open_edges(&mesh, &mesh.objects[0]), 0);
+        let middle = 0.5 * (bar[0].0 + bar[1].0);
+        for triangle in 0..mesh.triangles.len() {
+            let [a, b, c] = mesh.corners(triangle);
+            assert!(mesh.face_normal(triangle).dot((a + b + c) / 3.0 - middle) > 0.0, "triangle {triangle}");
+        }
+    }
+
+    #[test]
+    fn scattered_numbers_fill_the_range_evenly() {
+        let numbers: Vec<f64> = (0..4000).map(|thing| scattered(thing / 4, thing % 4)).collect();
+        assert!(numbers.iter().all(|number| (0.0..1.0).contains(number)));
+        for quarter in 0..4 {
+            let from = 0.25 * f64::from(quarter);
+            let share = numbers.iter().filter(|&&number| (from..from + 0.25).contains(&number)).count();
+            assert!((900..1100).contains(&share), "{share} of 1000 from {from}");
+        }
     }
 }
