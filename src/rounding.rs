@@ -63,8 +63,8 @@ const MOST_FOR_LOCAL_CASTERS: f64 = 1.0 / 1024.0;
 
 /// A depth range is at least so many times as long as the rounding in it. All that is visible of a flat scene under a
 /// light from straight above has one depth; were its range no longer than needed, there would be nothing but noise in
-/// it, and every point would shadow itself. With this, noise is at most 16 steps of 24 bits or a 16th of a step of 16,
-/// which any bias covers, while a range is never longer than about what the coordinates of the scene are large.
+/// it, and every point would shadow itself. With this the noise is 16 steps of 24 bits or a 16th of a step of 16, and
+/// what f32 loses of w besides, while no range grows longer than about what the coordinates are large.
 const QUIET: f64 = 1_048_576.0;
 
 impl Rounding {

@@ -202,6 +202,63 @@ fn maps_hold_what_they_must() {
     });
 }
 
+/// Depth from 0 at the near end to 1 at the far end, in any convention.
+fn depth_of(clip: ClipSpace, position: DVec4) -> f64 {
+    let z = position.z / position.w;
+    match clip.depth {
+        DepthRange::ZeroToOne => z,
+        DepthRange::ZeroToOneReversed => 1.0 - z,
+        DepthRange::NegativeOneToOne => 0.5 + 0.5 * z,
+        DepthRange::NegativeOneToOneReversed => 0.5 - 0.5 * z,
+    }
+}
+
+#[test]
+fn depths_are_as_quiet_as_the_map_says() {
+    run(5000, &(case(), settings(), any::<u64>()), |(case, settings, seed)| {
+        let together = Together::of(&case);
+        let focus = together.focus();
+        let Outcome::Map(map) = focus.fit(&settings) else { return };
+        let noise = map.depth().rounding;
+        for point in points_of(&focus.visible(), seed) {
+            let (_, of_w) = rounding(&map, &together.view, point);
+            if !together.is_served(point) || of_w > 0.5 {
+                continue;
+            }
+            let in_f32 = depth_of(settings.clip(), in_f32(&map, &together.view, point).as_dvec4());
+            let exact = depth_of(settings.clip(), map.shadow_from_world() * point.extend(1.0));
+            // w is off by a part of itself, which counts for more where much of it is lost.
+            assert!((in_f32 - exact).abs() <= noise / (1.0 - of_w), "{point}: {in_f32} {exact}, noise {noise}");
+        }
+    });
+}
+
+/// Found by drawing it: with a depth range no longer than needed, all of a plate under the sun shadowed itself.
+#[test]
+fn a_plate_under_light_from_above_does_not_drown_in_noise() {
+    let view =
+        View::perspective((0.0, 2.0, 12.0), (0.0, -0.2, -1.0), DVec3::Y, 1.0, 1.6, 0.1, 100.0).expect("sound");
+    let scene = Scene::from_box((-20.0, 0.0, -20.0), (20.0, 0.0, 20.0)).expect("sound");
+    let lights = [
+        Light::directional(DVec3::Y),
+        Light::directional((1e-3, 1.0, -2e-3)),
+        Light::point((1.0, 30.0, 2.0), 0.1, f64::INFINITY),
+    ];
+    for light in lights.map(|light| light.expect("sound")) {
+        for warp in [Warp::Uniform, Warp::Perspective] {
+            for origin in [Origin::World, Origin::Eye] {
+                let settings = Settings::default().with_warp(warp).with_origin(origin);
+                let focus = Focus::new(&view, &light, &scene);
+                let map = *focus.fit(&settings).map().expect("one map does");
+                let noise = map.depth().rounding;
+                let of_w = |point: &DVec3| rounding(&map, &view, *point).1;
+                let of_w = focus.visible().vertices().iter().map(of_w).fold(0.0, f64::max);
+                assert!(noise <= 16.0 / 16_777_216.0 + 2.0 * of_w, "{light:?}, {warp:?}, {origin:?}: {noise}");
+            }
+        }
+    }
+}
+
 /// A row of a matrix at a point, and how far rounding can carry it.
 ///
 /// A row is a combination of planes through the light or the eye and through the middle of what is visible: a few dozen

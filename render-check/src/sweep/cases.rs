@@ -73,7 +73,7 @@ pub const GROUPS: [Group; 13] = [
     Group { name: "clip-spaces", shots: || Ok(vec![lit_chess_board()?.with_options(clip_spaces())]) },
     Group { name: "sizes", shots: || Ok(vec![lit_chess_board()?.with_options(sizes())]) },
     Group { name: "filters", shots: || Ok(vec![lit_chess_board()?.with_options(filters())]) },
-    Group { name: "street", shots: || Ok(vec![Stand::built_in("street")?.own_lights("street")?]) },
+    Group { name: "street", shots: street },
     Group { name: "leaves", shots: || Ok(vec![Stand::built_in("leaves")?.own_lights("leaves")?]) },
 ];
 
@@ -132,6 +132,19 @@ fn lights_inside() -> Result<Vec<Shot>> {
             .collect()
     })?;
     Ok(vec![own, across])
+}
+
+/// A street with the near plane a step from the eye, where there is only air, and with it close before what is seen.
+fn street() -> Result<Vec<Shot>> {
+    let narrowed = || -> Result<Stand> {
+        let mut stand = Stand::built_in("street")?;
+        stand.camera.near = None;
+        Ok(stand)
+    };
+    Ok(vec![
+        Stand::built_in("street")?.own_lights("near plane in the air")?,
+        narrowed()?.own_lights("near plane at what is seen")?,
+    ])
 }
 
 /// A plate on which nothing casts, under a high sun, a low one, and a lamp.

@@ -50,3 +50,6 @@ pub const BUILT_IN: [BuiltIn; 6] = [
     },
     BuiltIn { name: "ground", shows: "a flat plate without any height and nothing on it", make: ground::make },
 ];
+
+#[cfg(test)]
+mod tests;
