@@ -102,7 +102,7 @@ struct Pictures<'a> {
 impl<'a> Pictures<'a> {
     /// Writes the true picture, too.
     fn new(out: &'a Path, number: usize, stage: &'a Stage<'a>, light: &'a StageLight) -> Result<Self> {
-        let (min, max) = stage.tracer.mesh().bounds();
+        let (min, max) = stage.tracer.bounds();
         let lighting = Lighting::new(light.spec, 0.5 * (min + max));
         let truth = shaded(&light.truth, &lighting, stage.tracer.mesh(), &light.truth.lit());
         let pictures = Self { out, number, light, mesh: stage.tracer.mesh(), lighting, truth };

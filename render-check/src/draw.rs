@@ -62,7 +62,7 @@ fn draw_light(
     };
 
     let edges: Vec<Line> = fit.body.edges().collect();
-    let (min, max) = tracer.mesh().bounds();
+    let (min, max) = tracer.bounds();
     let lighting = Lighting::new(fit.spec, 0.5 * (min + max));
     write("camera", &camera_view(view, &lighting, tracer, &edges, size)?)?;
 

@@ -118,7 +118,7 @@ pub fn choose_view(camera: &Camera, aspect: f64, tracer: &Tracer) -> Result<(Vie
     let near = camera.near.unwrap_or((NEAR_PLANE_MARGIN * probe.nearest).max(least_near));
     let view = camera.view(aspect, near, far)?;
     // Inside a closed solid one sees it from behind, all around and close by.
-    let (min, max) = tracer.mesh().bounds();
+    let (min, max) = tracer.bounds();
     let inside = probe.back_faces > 0.9 && probe.nearest < 0.02 * (max - min).length();
     let warning = inside.then(|| {
         "the camera seems to be inside a wall or a solid: nearly all it sees are back faces; move --eye".to_owned()

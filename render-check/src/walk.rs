@@ -148,7 +148,7 @@ fn table(flickers: &[Flicker]) -> Table {
 fn distance_ahead(view: &View, tracer: &Tracer<'_>) -> f64 {
     let ray = Lens::of_view(view).ok().and_then(|lens| lens.ray_through_pixel(0, 0, 1, 1));
     let hit = ray.and_then(|ray| tracer.first_hit(&ray));
-    let (min, max) = tracer.mesh().bounds();
+    let (min, max) = tracer.bounds();
     hit.map_or((max - min).length(), |hit| view.depth(hit.point))
 }
 

@@ -134,13 +134,19 @@ fn corners(min: DVec3, max: DVec3) -> [DVec3; 8] {
 #[must_use]
 pub fn light_view(lens: &Lens, view: &View, tracer: &Tracer, body: &Body, [width, height]: [u32; 2]) -> RgbImage {
     let bar = progress::bar("the light's view", 0);
+    // The outermost surfaces of a scene lie on the faces of its box, and so of H: a hair decides nothing there.
+    let (min, max) = tracer.bounds();
+    let hair = 1e-9 * (max - min).length();
+    let is_inside = |point: DVec3| {
+        !body.is_empty() && body.planes().all(|plane| plane.at(point) >= -hair * plane.normal.length())
+    };
     let mut canvas = Canvas::render(width, height, &bar, |x, y, width, height| {
         let seen = lens.ray_through_pixel(x, y, width, height).and_then(|ray| Some((ray, tracer.first_hit(&ray)?)));
         let Some((ray, hit)) = seen else {
             return Sample { colour: background(1.0 - y as f32 / height as f32), distance: f64::INFINITY };
         };
         let facing = hit.shading_normal.dot(-ray.direction).max(0.0) as f32;
-        let inside = if body.contains(hit.point) { 1.0 } else { OUTSIDE_BRIGHTNESS };
+        let inside = if is_inside(hit.point) { 1.0 } else { OUTSIDE_BRIGHTNESS };
         let light = inside * (0.25 + 0.75 * facing);
         Sample { colour: tracer.mesh().colours[hit.triangle].map(|c| c * light), distance: hit.distance }
     });
