@@ -14,7 +14,7 @@ use crate::trace::Faces;
 /// What the rasteriser adds to depth, away from the light.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Bias {
-    /// In steps of the format, see [`Bias::step`].
+    /// In steps of the format, see [`Bias::steps`].
     pub constant: i32,
     /// Times the greater change of depth from texel to texel, across and down.
     pub slope: f32,

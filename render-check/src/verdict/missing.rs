@@ -5,9 +5,12 @@
 //!
 //! Five rays of light go through the texel: through its centre, where the rasteriser samples, and through four places a
 //! sixteenth of a texel off, so that a caster's edge close to the centre leaves no doubt of which side it is on. Each
-//! ends on the receiver's tangent plane. A caster is missing where all five meet a drawn face, where the farthest depth
-//! that these faces can have been stored with lies before the nearest depth of the receiver, and where the map yet holds
-//! a depth beyond that. The farthest depth of a face is its depth plus
+//! ends on the receiver's tangent plane. A caster is missing where all five meet drawn faces of one surface, where the
+//! farthest depth that these faces can have been stored with lies before the nearest depth of the receiver, and where the
+//! map yet holds a depth beyond that. One surface: the triangles touch the one that the centre's ray meets. Among leaves
+//! two may lie above each other with the edges of both at the centre, and a rasteriser sees between them.
+//!
+//! The farthest depth of a face is its depth plus
 //!
 //! - the rasteriser's bias, as it is stated;
 //! - its slope over a 256th of a texel, in columns and rows: a rasteriser rounds corners of triangles to such a grid,
@@ -22,6 +25,7 @@ use shadowfit::glam::DVec2;
 
 use super::Comparison;
 use super::surface::Surface;
+use crate::scene::Mesh;
 
 /// How far off a texel's centre the other rays go, in texels, where the f32 matrix is exact.
 const OFF_CENTRE: f64 = 1.0 / 16.0;
@@ -41,12 +45,16 @@ impl Comparison<'_> {
         let (across, _) = self.texels.rounding(receiver.point);
         let (centre, off) = (place.floor() + 0.5, OFF_CENTRE + across);
         let (mut farthest_caster, mut nearest_receiver) = (f64::NEG_INFINITY, f64::INFINITY);
+        let mut surface = None;
         for step in [DVec2::ZERO, DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y] {
             let Some(depths) = self.caster_and_receiver(receiver, centre + off * step) else {
                 return false;
             };
-            farthest_caster = farthest_caster.max(depths.0);
-            nearest_receiver = nearest_receiver.min(depths.1);
+            if !touch(self.tracer.mesh(), *surface.get_or_insert(depths.triangle), depths.triangle) {
+                return false;
+            }
+            farthest_caster = farthest_caster.max(depths.caster);
+            nearest_receiver = nearest_receiver.min(depths.receiver);
         }
         farthest_caster < nearest_receiver && nearest_receiver < stored
     }
@@ -54,7 +62,7 @@ impl Comparison<'_> {
     /// At a place of the map, the farthest depth with which the caster there can have been stored, and the nearest that
     /// the receiver's tangent plane can have; `None` where no drawn face stands before that plane, or one that the light
     /// sees from its edge.
-    fn caster_and_receiver(&self, receiver: &Surface, place: DVec2) -> Option<(f64, f64)> {
+    fn caster_and_receiver(&self, receiver: &Surface, place: DVec2) -> Option<Depths> {
         let (texels, rendered) = (&self.texels, self.rendered);
         let point = texels.on_plane(receiver.point, receiver.normal, place)?;
         let ray = self.truth.source().ray_to(self.tracer, point)?;
@@ -64,9 +72,47 @@ impl Comparison<'_> {
         let (_, caster_rounding) = texels.rounding(caster.point);
         let (_, receiver_rounding) = texels.rounding(point);
         let tolerance = SUBTEXEL * slopes.element_sum() + rendered.depth_step + caster_rounding;
-        Some((
-            texels.place(caster.point)?.z + bias + tolerance,
-            texels.place(point)?.z - rendered.depth_step - receiver_rounding,
-        ))
+        Some(Depths {
+            triangle: caster.triangle,
+            caster: texels.place(caster.point)?.z + bias + tolerance,
+            receiver: texels.place(point)?.z - rendered.depth_step - receiver_rounding,
+        })
+    }
+}
+
+/// What one ray of light says.
+struct Depths {
+    /// The caster's triangle.
+    triangle: usize,
+    /// The farthest depth that the caster can have been stored with.
+    caster: f64,
+    /// The nearest depth that the receiver can have.
+    receiver: f64,
+}
+
+/// Whether two triangles are the same or have a corner in common.
+fn touch(mesh: &Mesh, one: usize, other: usize) -> bool {
+    let (a, b) = (mesh.corners(one), mesh.corners(other));
+    a.iter().any(|corner| b.contains(corner))
+}
+
+#[cfg(test)]
+mod tests {
+    use shadowfit::glam::{DMat4, DVec3};
+
+    use super::*;
+    use crate::scene::{MeshBuilder, Part};
+
+    #[test]
+    fn triangles_touch_at_corners_whoever_owns_them() {
+        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE];
+        let part = Part { positions: &corners, normals: &[], triangles: &[[0, 1, 2], [1, 3, 2]], colour: [1.0; 3] };
+        let mut builder = MeshBuilder::default();
+        builder.add(&part, DMat4::IDENTITY);
+        builder.add(&part, DMat4::from_translation(DVec3::X));
+        builder.add(&part, DMat4::from_translation(DVec3::Z));
+        let (mesh, _) = builder.finish();
+        assert!(touch(&mesh, 0, 0) && touch(&mesh, 0, 1) && touch(&mesh, 0, 2));
+        assert!(!touch(&mesh, 0, 4) && !touch(&mesh, 2, 4));
     }
 }
