@@ -150,6 +150,11 @@ pub struct ViewArgs {
     #[arg(long, value_name = "DISTANCE", value_parser = parse_distance)]
     pub far: Option<f64>,
 
+    /// The distance from a lamp at which its shadow map begins, in world units: inside any lampshade, but the smaller it
+    /// is, the coarser is depth far from the lamp [default: a thousandth of the scene's diagonal]
+    #[arg(long, value_name = "DISTANCE", value_parser = parse_distance)]
+    pub lamp_near: Option<f64>,
+
     /// Width of the camera's image, in pixels
     #[arg(long, value_name = "PIXELS", default_value_t = 960, value_parser = RangedU64ValueParser::<u32>::new().range(16..=8192))]
     pub width: u32,

@@ -46,7 +46,8 @@ pub fn check(args: &CheckArgs) -> Result<()> {
     let gpu = Gpu::new()?;
     say(&format!("drawn by {}", gpu.name()));
 
-    let stage = Stage::new(&gpu, &tracer, &view, [args.view.width, args.view.height])?;
+    let size = [args.view.width, args.view.height];
+    let stage = Stage::new(&gpu, &tracer, &view, size)?.with_lamp_near(args.view.lamp_near);
     let lights = choose_lights(&args.view, &scene);
     let options = args.map.options(args.frames);
     let bar = bar("checking", lights.len() * options.len());

@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use shadowfit::{Outcome, Settings, View};
 
 use crate::args::DrawArgs;
-use crate::fitting::{LightFit, fit_light};
+use crate::fitting::{LightFit, fit_light, lamp_near};
 use crate::fitting_table::{reason_without_map, table};
 use crate::opening::{choose_lights, open, output_directory, place_camera, say, sort};
 use crate::picture::{Lens, Lighting, Line, camera_view, light_lens, light_view, maps_view, save};
@@ -24,9 +24,10 @@ pub fn draw(args: &DrawArgs) -> Result<()> {
     let tracer = sort(&scene.mesh)?;
     let (_, view) = place_camera(&args.view, &scene, &tracer)?;
 
+    let lamp_near = args.view.lamp_near.unwrap_or_else(|| lamp_near(&scene.mesh));
     let fits = choose_lights(&args.view, &scene)
         .into_iter()
-        .map(|light| fit_light(light, &view, &scene.mesh, &settings))
+        .map(|light| fit_light(light, &view, &scene.mesh, lamp_near, &settings))
         .collect::<Result<Vec<_>>>()?;
     say(&table(&fits, scene.mesh.bounds()).to_string());
     for (i, fit) in fits.iter().enumerate() {

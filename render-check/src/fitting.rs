@@ -57,7 +57,7 @@ pub fn scene_box(mesh: &Mesh) -> Result<Scene<'static>> {
     Scene::from_box(min, max).context("the scene's extent cannot be used")
 }
 
-/// The distance from a lamp at which its map begins, in world units.
+/// The distance from a lamp at which its map begins where nobody says, in world units.
 #[must_use]
 pub fn lamp_near(mesh: &Mesh) -> f64 {
     let (min, max) = mesh.bounds();
@@ -69,9 +69,15 @@ pub fn lamp_near(mesh: &Mesh) -> f64 {
 /// # Errors
 ///
 /// When the light makes no sense.
-pub fn fit_light(spec: LightSpec, view: &View, mesh: &Mesh, settings: &Settings) -> Result<LightFit> {
+pub fn fit_light(
+    spec: LightSpec,
+    view: &View,
+    mesh: &Mesh,
+    lamp_near: f64,
+    settings: &Settings,
+) -> Result<LightFit> {
     let scene = scene_box(mesh)?;
-    let light: Light = spec.to_light(lamp_near(mesh))?;
+    let light: Light = spec.to_light(lamp_near)?;
     let focus = Focus::new(view, &light, &scene);
     let fitted = |settings: Settings| {
         let outcome = focus.fit(&settings);
@@ -129,7 +135,8 @@ mod tests {
 
         let settings = Settings::new(256, 600).expect("sound sizes");
         for &spec in scene.lights.iter().filter(|light| light.kind() != "spot") {
-            let light_fit = fit_light(spec, &view, &scene.mesh, &settings).expect("a sound light");
+            let light_fit =
+                fit_light(spec, &view, &scene.mesh, lamp_near(&scene.mesh), &settings).expect("a sound light");
             assert!(!light_fit.body.is_empty() && light_fit.median_time > Duration::ZERO);
             for fitted in [&light_fit.uniform, &light_fit.perspective, &light_fit.unshifted] {
                 let map = fitted.outcome.map().expect("one frustum does");

@@ -25,6 +25,8 @@ pub struct Stage<'a> {
     pub geometry: Geometry,
     /// What the camera sees.
     pub surfaces: Surfaces,
+    /// The distance from a lamp at which its map begins, in world units.
+    pub lamp_near: f64,
 }
 
 impl<'a> Stage<'a> {
@@ -36,7 +38,14 @@ impl<'a> Stage<'a> {
     pub fn new(gpu: &'a Gpu, tracer: &'a Tracer<'a>, view: &View, size: [u32; 2]) -> Result<Self> {
         let geometry = Geometry::upload(gpu, tracer.mesh(), view.eye())?;
         let surfaces = Surfaces::draw(gpu, &geometry, view, size)?;
-        Ok(Self { gpu, tracer, bounds: scene_box(tracer.mesh())?, view: *view, size, geometry, surfaces })
+        let (bounds, lamp_near) = (scene_box(tracer.mesh())?, lamp_near(tracer.mesh()));
+        Ok(Self { gpu, tracer, bounds, view: *view, size, geometry, surfaces, lamp_near })
+    }
+
+    /// The same with lamps whose maps begin at another distance, if one is given.
+    #[must_use]
+    pub fn with_lamp_near(self, lamp_near: Option<f64>) -> Self {
+        Self { lamp_near: lamp_near.unwrap_or(self.lamp_near), ..self }
     }
 
     /// A light, as the fit takes it and as rays see it from here.
@@ -45,9 +54,9 @@ impl<'a> Stage<'a> {
     ///
     /// When the light makes no sense.
     pub fn light(&self, spec: LightSpec) -> Result<StageLight> {
-        let near = lamp_near(self.tracer.mesh());
-        let light = spec.to_light(near)?;
-        let truth = TruthImage::trace(&self.view, self.size, &self.surfaces.triangles, &spec, near, self.tracer)?;
+        let light = spec.to_light(self.lamp_near)?;
+        let triangles = &self.surfaces.triangles;
+        let truth = TruthImage::trace(&self.view, self.size, triangles, &spec, self.lamp_near, self.tracer)?;
         Ok(StageLight { spec, light, truth })
     }
 }

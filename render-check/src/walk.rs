@@ -96,10 +96,11 @@ pub fn walk(args: &WalkArgs) -> Result<()> {
         .collect();
     let bar = bar("walking", args.steps as usize);
     let size = [args.view.width, args.view.height];
-    let mut here = Stage::new(&gpu, &tracer, &start, size)?;
+    let mut here = Stage::new(&gpu, &tracer, &start, size)?.with_lamp_near(args.view.lamp_near);
     for step in 0..args.steps {
         let camera = moved(&camera, pace * f64::from(step + 1), args.turn * f64::from(step + 1));
-        let next = Stage::new(&gpu, &tracer, &camera.view(args.view.aspect(), start.near(), start.far())?, size)?;
+        let view = camera.view(args.view.aspect(), start.near(), start.far())?;
+        let next = Stage::new(&gpu, &tracer, &view, size)?.with_lamp_near(args.view.lamp_near);
         // What the camera saw, about the origin that the next map's matrix takes positions from.
         let again = Surfaces::draw(&gpu, &next.geometry, &here.view, size)?;
         for (spec, flickers) in lights.iter().zip(flickers.chunks_mut(options.len())) {

@@ -102,6 +102,22 @@ fn a_walk_tells_what_flickers() {
 }
 
 #[test]
+fn nothing_flickers_where_the_camera_stands_still() {
+    let directory = temporary();
+    let still = ["walk", "--steps", "1", "--pace", "1e-9", "--turn", "0", "--width", "160", "--height", "100"];
+    let output = run(&[&still[..], &["--size", "256"]].concat(), directory.path());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let path = directory.path().join("out/chess-board/walk.json");
+    let report: serde_json::Value = serde_json::from_slice(&fs::read(path).expect("written")).expect("sound JSON");
+    for map in report.as_array().expect("a list") {
+        let step = &map["steps"][0];
+        let [changed, compared] = ["changed", "compared"].map(|name| step[name].as_u64().expect("a number"));
+        // All is rounded about another eye, which may move a pixel or two over an edge.
+        assert!(compared > 1000 && changed * 1000 <= compared, "{map}");
+    }
+}
+
+#[test]
 fn a_sweep_that_knows_no_such_group_names_those_it_knows() {
     let directory = temporary();
     let message = complaint(&run(&["sweep", "nonsense"], directory.path()));
