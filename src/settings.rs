@@ -10,7 +10,9 @@ use crate::focus::Form;
 pub enum Warp {
     /// No warp: a parallel projection for a directional light, a perspective one from any other.
     Uniform,
-    /// The camera's perspective (Stamminger & Drettakis 2002): texels shrink towards the eye.
+    /// The camera's perspective (Stamminger & Drettakis 2002): texels shrink towards the eye, from the view's near plane
+    /// on. A near plane in the air before all that is seen draws them there, and a uniform map may then be better: narrow
+    /// the view to what is seen ([`View::narrowed`](crate::View::narrowed)).
     #[default]
     Perspective,
 }

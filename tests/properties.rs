@@ -576,6 +576,7 @@ fn exercise(view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) 
         ("padding x", window.padding.0),
         ("padding y", window.padding.1),
         ("depth near", depth.near),
+        ("depth rounding", depth.rounding),
         ("shift", camera.shift),
         ("camera near", camera.near),
         ("camera far", camera.far),

@@ -10,6 +10,7 @@ use shadowfit::{ClipSpace, DepthFormat};
 use crate::gpu::{Bias, Filter};
 use crate::light::LightSpec;
 use crate::run::Options;
+use crate::scene::BUILT_IN;
 use crate::technique::Technique;
 use crate::trace::Faces;
 
@@ -89,12 +90,18 @@ Each case is a small picture of a built-in scene, drawn with every technique and
 table has a line for each group of cases, with the worst that was found in it; --out gets all of it as sweep.json.
 The command fails when a caster is missing anywhere.";
 
+/// The built-in scenes, and what each shows.
+fn scenes() -> String {
+    let lines = BUILT_IN.map(|scene| format!("\n  {:12}{}", scene.name, scene.shows));
+    format!("Built-in scenes:{}", lines.concat())
+}
+
 /// Draws scenes with fitted shadow maps on a graphics card and compares every pixel with ray-traced truth.
 ///
 /// Without a command it checks one scene: every light, with each technique and size of map.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "render-check", version, max_term_width = 110, args_conflicts_with_subcommands = true)]
-#[command(after_help = format!("{EXAMPLES}\n\n{LIGHTS}\n\n{CHECK_HELP}"))]
+#[command(after_help = format!("{EXAMPLES}\n\n{}\n\n{LIGHTS}\n\n{CHECK_HELP}", scenes()))]
 pub struct Args {
     /// What to do, if not to check a scene.
     #[command(subcommand)]
@@ -109,10 +116,10 @@ pub struct Args {
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
     /// Fits and draws by ray casting, without a graphics card: H, what the light sees, what the maps hold
-    #[command(after_help = format!("{LIGHTS}\n\n{DRAW_HELP}"))]
+    #[command(after_help = format!("{}\n\n{LIGHTS}\n\n{DRAW_HELP}", scenes()))]
     Draw(DrawArgs),
     /// Walks the camera and counts the pixels that flicker
-    #[command(after_help = format!("{LIGHTS}\n\n{WALK_HELP}"))]
+    #[command(after_help = format!("{}\n\n{LIGHTS}\n\n{WALK_HELP}", scenes()))]
     Walk(WalkArgs),
     /// Checks the hard cases, all of them
     #[command(after_help = SWEEP_HELP)]
@@ -122,7 +129,7 @@ pub enum Command {
 /// A camera before a scene, and its lights.
 #[derive(Clone, Debug, clap::Args)]
 pub struct ViewArgs {
-    /// A binary glTF file, or a built-in scene: chess-board, street, behind, leaves, room, ground
+    /// A binary glTF file, or the name of a built-in scene, see below
     #[arg(value_name = "SCENE", default_value = "chess-board")]
     pub scene: PathBuf,
 
@@ -192,8 +199,8 @@ pub struct MapArgs {
     pub format: FormatArg,
 
     /// Which sides of triangles are drawn into the map, as the light sees them
-    #[arg(long, value_enum, default_value_t = FacesArg::All)]
-    pub faces: FacesArg,
+    #[arg(long, value_enum, default_value_t = Faces::All)]
+    pub faces: Faces,
 
     /// How the map is read: nearest, hardware (2 x 2, blended), or pcfN for the mean over N x N texels
     #[arg(long, value_name = "FILTER", default_value = "nearest", value_parser = parse_filter)]
@@ -217,7 +224,7 @@ impl MapArgs {
         let of = |&map_size: &u32, &technique: &Technique| Options {
             clip: self.clip,
             format: self.format.into(),
-            faces: self.faces.into(),
+            faces: self.faces,
             filter: self.filter,
             bias: self.bias,
             frames,
@@ -309,27 +316,6 @@ impl From<FormatArg> for DepthFormat {
             FormatArg::Unorm16 => Self::Unorm16,
             FormatArg::Unorm24 => Self::Unorm24,
             FormatArg::Float32 => Self::Float32,
-        }
-    }
-}
-
-/// Which sides of triangles, as a word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum FacesArg {
-    /// Both
-    All,
-    /// Those that face the light
-    Front,
-    /// Those that face away from it
-    Back,
-}
-
-impl From<FacesArg> for Faces {
-    fn from(faces: FacesArg) -> Self {
-        match faces {
-            FacesArg::All => Self::All,
-            FacesArg::Front => Self::Front,
-            FacesArg::Back => Self::Back,
         }
     }
 }
@@ -472,7 +458,7 @@ mod tests {
         let map = Args::parse_from(line.split_whitespace()).check.map;
         assert_eq!(map.techniques, [Technique::Psm, Technique::Uniform]);
         assert_eq!(map.sizes, [256, 512]);
-        assert_eq!((map.format, map.faces), (FormatArg::Unorm16, FacesArg::Back));
+        assert_eq!((map.format, map.faces), (FormatArg::Unorm16, Faces::Back));
         assert_eq!(map.filter, Filter::PercentageCloser(5));
         assert_eq!(ClipSpace::from(map.clip), ClipSpace::OPENGL.reversed());
     }

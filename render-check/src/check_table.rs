@@ -2,11 +2,10 @@
 
 use std::fmt;
 
-use comfy_table::presets::UTF8_FULL_CONDENSED;
-use comfy_table::{CellAlignment, ContentArrangement, Table};
+use comfy_table::Table;
 
-use crate::fitting_table::number;
 use crate::run::{MapRun, NoMap, Options};
+use crate::table::{self, number, percent};
 use crate::verdict::{Cluster, Fault};
 
 /// The rows of one light.
@@ -23,21 +22,13 @@ impl CheckTable {
     /// No rows yet.
     #[must_use]
     pub fn new() -> Self {
-        let mut table = Table::new();
-        table
-            .load_style(UTF8_FULL_CONDENSED)
-            .set_content_arrangement(ContentArrangement::Disabled)
-            .set_header(COLUMNS);
-        for column in table.column_iter_mut().skip(1) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-        Self { table, reasons: Vec::new() }
+        Self { table: table::new(COLUMNS, 1..COLUMNS.len()), reasons: Vec::new() }
     }
 
     /// A row for a map.
     pub fn add_map(&mut self, options: &Options, run: &MapRun) {
         let counts = &run.verdict.counts;
-        let percent = |count: usize| format!("{} %", number(100.0 * counts.fraction(count)));
+        let share = |count: usize| percent(counts.fraction(count));
         let milliseconds = |time: Option<f64>| time.map_or_else(|| "-".into(), |ms| format!("{ms:.2} ms"));
         self.table.add_row([
             name(options),
@@ -47,8 +38,8 @@ impl CheckTable {
                 |aliasing| format!("{}, {}", number(aliasing.worst), number(aliasing.median)),
             ),
             counts.missing.to_string(),
-            format!("{}, {}", percent(counts.false_shadow), percent(counts.false_light)),
-            percent(counts.edges()),
+            format!("{}, {}", share(counts.false_shadow), share(counts.false_light)),
+            share(counts.edges()),
             run.verdict.worst_cluster.as_ref().map_or_else(|| "-".into(), place),
             format!("{:.1} µs", run.times.fit_us),
             milliseconds(run.times.shadow_map_ms),

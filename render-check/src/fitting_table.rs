@@ -2,21 +2,18 @@
 
 use std::time::Duration;
 
-use comfy_table::presets::UTF8_FULL_CONDENSED;
-use comfy_table::{CellAlignment, ContentArrangement, Table};
+use comfy_table::Table;
 use shadowfit::glam::DVec3;
 use shadowfit::{Body, Outcome, Report};
 
 use crate::fitting::{Fitted, LightFit};
+use crate::table::{self, number};
 
 /// The table of all lights. `bounds` are those of the scene.
 #[must_use]
 pub fn table(fits: &[LightFit], bounds: (DVec3, DVec3)) -> Table {
-    let mut table = Table::new();
-    table
-        .load_style(UTF8_FULL_CONDENSED)
-        .set_content_arrangement(ContentArrangement::Disabled)
-        .set_header(["", "light", "class", "s", "H", "map", "window", "aliasing", "fit"]);
+    let header = ["", "light", "class", "s", "H", "map", "window", "aliasing", "fit"];
+    let mut table = table::new(header, [0, 3, 7, 8]);
     for (i, fit) in fits.iter().enumerate() {
         table.add_row([
             (i + 1).to_string(),
@@ -29,11 +26,6 @@ pub fn table(fits: &[LightFit], bounds: (DVec3, DVec3)) -> Table {
             each_map(fit, |report| number(report.aliasing)),
             microseconds(fit.median_time),
         ]);
-    }
-    for column in [0, 3, 7, 8] {
-        if let Some(column) = table.column_mut(column) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
     }
     table
 }
@@ -79,24 +71,6 @@ fn body(fit: &LightFit, (min, max): (DVec3, DVec3)) -> String {
     )
 }
 
-/// A number with three digits that matter.
-pub(crate) fn number(value: f64) -> String {
-    let digits =
-        if value.abs() >= 1.0 && value.is_finite() { (2.0 - value.abs().log10().floor()).max(0.0) } else { 3.0 };
-    format!("{value:.*}", digits as usize)
-}
-
 fn microseconds(time: Duration) -> String {
     format!("{:.1} µs", time.as_secs_f64() * 1e6)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_keep_three_digits() {
-        assert_eq!([0.0, 0.1234, 1.234, 56.78, 1234.5].map(number), ["0.000", "0.123", "1.23", "56.8", "1234"]);
-        assert_eq!(number(f64::INFINITY), "inf");
-    }
 }

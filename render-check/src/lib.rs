@@ -16,7 +16,7 @@
 //! | [`verdict`] | the truth about every pixel, and what is wrong with a rendered one |
 //! | [`stage`] | one camera before one scene, drawn |
 //! | [`technique`], [`run`] | one light through one kind of map: fitted, culled, drawn, tested, judged |
-//! | [`report`], [`check_table`] | what is written and printed of it |
+//! | [`report`], [`table`], [`check_table`] | what is written and printed of it |
 //! | [`picture`] | what is written as PNG |
 //!
 //! and into the commands:
@@ -50,6 +50,7 @@ pub mod run;
 pub mod scene;
 pub mod stage;
 pub mod sweep;
+pub mod table;
 pub mod technique;
 pub mod trace;
 pub mod verdict;

@@ -99,16 +99,6 @@ impl fmt::Display for NoMap {
     }
 }
 
-/// A map, drawn.
-pub struct DrawnMap {
-    /// The fit.
-    pub map: Map,
-    /// The map on the card.
-    pub shadow_map: ShadowMap,
-    /// The share of objects and triangles that were drawn.
-    pub drawn: Drawn,
-}
-
 /// What culling against H left to draw.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Drawn {
@@ -122,36 +112,51 @@ pub struct Drawn {
     pub of_triangles: usize,
 }
 
-/// Fits a map as a renderer does, culls the casters against H and draws them; or says why there is no map.
-///
-/// # Errors
-///
-/// When the settings cannot be used or the card refuses.
-pub fn draw_map(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<DrawnMap, NoMap>> {
-    let focus = Focus::new(&stage.view, light, &stage.bounds);
-    let map = match focus.fit(&options.settings(stage.size[1])?) {
-        Outcome::Map(map) => map,
-        Outcome::Empty(empty) => return Ok(Err(NoMap::Empty(empty))),
-        Outcome::Surrounded(surrounded) => return Ok(Err(NoMap::Surrounded(surrounded))),
-    };
-    let mesh = stage.tracer.mesh();
-    let casters = casters(mesh, &focus);
-    let triangles = casters.iter().map(Range::len).sum();
-    let drawn = Drawn {
-        objects: casters.len(),
-        of_objects: mesh.objects.len(),
-        triangles,
-        of_triangles: mesh.triangles.len(),
-    };
-    let shadow_map = ShadowMap::draw(stage.gpu, &stage.geometry, &casters, &map, &options.pass(&map))?;
-    Ok(Ok(DrawnMap { map, shadow_map, drawn }))
+/// A map, and the casters that belong in it.
+pub struct FittedMap {
+    map: Map,
+    pass: MapPass,
+    /// The triangles of the objects that meet H.
+    casters: Vec<Range<u32>>,
 }
 
-/// The triangles of the objects that meet H.
-fn casters(mesh: &Mesh, focus: &Focus<'_>) -> Vec<Range<u32>> {
-    let body = focus.body(Form::Tight);
-    let meets = mesh.objects.iter().filter(|object| body.meets_box(object.min, object.max));
-    meets.map(|object| object.triangles.clone()).collect()
+impl FittedMap {
+    /// Fits a map as a renderer does and culls the casters against H; or says why there is no map.
+    ///
+    /// # Errors
+    ///
+    /// When the settings cannot be used.
+    pub fn new(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
+        let focus = Focus::new(&stage.view, light, &stage.bounds);
+        let map = match focus.fit(&options.settings(stage.size[1])?) {
+            Outcome::Map(map) => map,
+            Outcome::Empty(empty) => return Ok(Err(NoMap::Empty(empty))),
+            Outcome::Surrounded(surrounded) => return Ok(Err(NoMap::Surrounded(surrounded))),
+        };
+        let body = focus.body(Form::Tight);
+        let objects = &stage.tracer.mesh().objects;
+        let meets = objects.iter().filter(|object| body.meets_box(object.min, object.max));
+        let casters = meets.map(|object| object.triangles.clone()).collect();
+        Ok(Ok(Self { map, pass: options.pass(&map), casters }))
+    }
+
+    /// Draws the casters.
+    ///
+    /// # Errors
+    ///
+    /// When the card refuses.
+    pub fn draw(&self, stage: &Stage<'_>) -> Result<ShadowMap> {
+        ShadowMap::draw(stage.gpu, &stage.geometry, &self.casters, &self.map, &self.pass)
+    }
+
+    fn drawn(&self, mesh: &Mesh) -> Drawn {
+        Drawn {
+            objects: self.casters.len(),
+            of_objects: mesh.objects.len(),
+            triangles: self.casters.iter().map(Range::len).sum(),
+            of_triangles: mesh.triangles.len(),
+        }
+    }
 }
 
 /// Median times.
@@ -191,35 +196,27 @@ pub struct MapRun {
 ///
 /// When the settings cannot be used or the card refuses.
 pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<Result<MapRun, NoMap>> {
-    let mut shadow_map_times = Vec::new();
-    let mut shadow_test_times = Vec::new();
-    let (DrawnMap { map, shadow_map, drawn }, Shadows { lit, .. }) = {
-        let mut frame = || -> Result<Result<_, NoMap>> {
-            let drawn = match draw_map(stage, &light.light, options)? {
-                Ok(drawn) => drawn,
-                Err(none) => return Ok(Err(none)),
-            };
-            let shadows = shadow_test(stage.gpu, &stage.surfaces, &drawn.shadow_map, options.filter)?;
-            shadow_map_times.extend(drawn.shadow_map.time);
-            shadow_test_times.extend(shadows.time);
-            Ok(Ok((drawn, shadows)))
-        };
-        for _ in 1..options.frames {
-            if let Err(none) = frame()? {
-                return Ok(Err(none));
-            }
-        }
-        match frame()? {
-            Ok(last) => last,
-            Err(none) => return Ok(Err(none)),
-        }
+    let fitted = match FittedMap::new(stage, &light.light, options)? {
+        Ok(fitted) => fitted,
+        Err(none) => return Ok(Err(none)),
     };
+    let FittedMap { map, pass, .. } = fitted;
+    let frame = || -> Result<(ShadowMap, Shadows)> {
+        let shadow_map = fitted.draw(stage)?;
+        let shadows = shadow_test(stage.gpu, &stage.surfaces, &shadow_map, options.filter)?;
+        Ok((shadow_map, shadows))
+    };
+    let (shadow_map, Shadows { lit, time }) = frame()?;
+    let (mut shadow_map_times, mut shadow_test_times) = (vec![shadow_map.time], vec![time]);
+    for _ in 1..options.frames {
+        let (shadow_map, shadows) = frame()?;
+        shadow_map_times.push(shadow_map.time);
+        shadow_test_times.push(shadows.time);
+    }
     let depths = shadow_map.depths(stage.gpu)?;
-    let settings = *map.settings();
     // A fit takes a few hundred times less than a frame.
     let fits = 300 * options.frames as usize - 299;
-    let fit_time = median_time(fits, || fit(&stage.view, &light.light, &stage.bounds, &settings));
-    let pass = options.pass(&map);
+    let fit_time = median_time(fits, || fit(&stage.view, &light.light, &stage.bounds, map.settings()));
     let rendered = Rendered {
         map: &map,
         lit: &lit,
@@ -233,13 +230,16 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
     let times = Times {
         fit_us: fit_time.as_secs_f64() * 1e6,
         shadow_map_ms: median_ms(shadow_map_times),
-        camera_ms: median_ms(stage.surfaces.time.into_iter().collect()),
+        camera_ms: median_ms(vec![stage.surfaces.time]),
         shadow_test_ms: median_ms(shadow_test_times),
     };
+    let drawn = fitted.drawn(stage.tracer.mesh());
     Ok(Ok(MapRun { map, depths, lit, drawn, pass, times, verdict }))
 }
 
-fn median_ms(mut times: Vec<Duration>) -> Option<f64> {
+/// Nothing where the card has no clock.
+fn median_ms(times: Vec<Option<Duration>>) -> Option<f64> {
+    let mut times: Vec<Duration> = times.into_iter().flatten().collect();
     times.sort_unstable();
     times.get(times.len() / 2).map(|time| time.as_secs_f64() * 1e3)
 }

@@ -20,7 +20,7 @@ pub struct Ray {
 }
 
 /// Which sides of triangles a ray can meet, or a map is drawn with, as the ray or the light sees them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, clap::ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Faces {
     /// Both.

@@ -1,22 +1,21 @@
 //! A camera that walks, and the pixels that flicker: light and shadow that change though the truth does not.
 
 use anyhow::Result;
-use comfy_table::presets::UTF8_FULL_CONDENSED;
-use comfy_table::{CellAlignment, ContentArrangement, Table};
+use comfy_table::Table;
 use serde::Serialize;
 use shadowfit::View;
 use shadowfit::glam::DQuat;
 
 use crate::args::WalkArgs;
-use crate::fitting_table::number;
 use crate::framing::Camera;
 use crate::gpu::{Gpu, Surfaces, shadow_test};
 use crate::opening::{choose_lights, open, output_directory, place_camera, say, sort};
 use crate::picture::Lens;
 use crate::progress::bar;
 use crate::report;
-use crate::run::{Options, draw_map};
+use crate::run::{FittedMap, Options};
 use crate::stage::{Stage, StageLight};
+use crate::table::{self, percent};
 use crate::technique::Technique;
 use crate::trace::Tracer;
 
@@ -114,22 +113,14 @@ pub fn walk(args: &WalkArgs) -> Result<()> {
     }
     bar.finish_and_clear();
 
-    say(&table(&flickers).to_string());
+    say(&summary(&flickers).to_string());
     report::write(&flickers, &out.join("walk.json"))?;
     say(&format!("wrote walk.json to {}", out.display()));
     Ok(())
 }
 
-fn table(flickers: &[Flicker]) -> Table {
-    let mut table = Table::new();
-    table.load_style(UTF8_FULL_CONDENSED).set_content_arrangement(ContentArrangement::Disabled).set_header([
-        "light",
-        "map",
-        "change in a step",
-        "at worst",
-        "steps without a map",
-    ]);
-    let percent = |share: f64| format!("{} %", number(100.0 * share));
+fn summary(flickers: &[Flicker]) -> Table {
+    let mut table = table::new(["light", "map", "change in a step", "at worst", "steps without a map"], 2..5);
     for flicker in flickers {
         table.add_row([
             flicker.light.clone(),
@@ -138,9 +129,6 @@ fn table(flickers: &[Flicker]) -> Table {
             percent(flicker.worst()),
             flicker.steps.iter().filter(|step| step.is_none()).count().to_string(),
         ]);
-    }
-    for column in table.column_iter_mut().skip(2) {
-        column.set_cell_alignment(CellAlignment::Right);
     }
     table
 }
@@ -168,13 +156,10 @@ fn compare(
     light: &StageLight,
     options: &Options,
 ) -> Result<Option<Step>> {
-    let (Ok(this_map), Ok(next_map)) =
-        (draw_map(here, &light.light, options)?, draw_map(next, &light.light, options)?)
-    else {
-        return Ok(None);
-    };
-    let before = shadow_test(here.gpu, &here.surfaces, &this_map.shadow_map, options.filter)?.lit;
-    let after = shadow_test(here.gpu, again, &next_map.shadow_map, options.filter)?.lit;
+    let maps = (FittedMap::new(here, &light.light, options)?, FittedMap::new(next, &light.light, options)?);
+    let (Ok(this_map), Ok(next_map)) = maps else { return Ok(None) };
+    let before = shadow_test(here.gpu, &here.surfaces, &this_map.draw(here)?, options.filter)?.lit;
+    let after = shadow_test(here.gpu, again, &next_map.draw(next)?, options.filter)?.lit;
     let planes = next.view.planes();
     let mut step = Step::default();
     for (i, pixel) in light.truth.pixels().iter().enumerate() {

@@ -6,20 +6,19 @@ mod lights;
 use std::fmt;
 
 use anyhow::{Context, Result, ensure};
-use comfy_table::presets::UTF8_FULL_CONDENSED;
-use comfy_table::{CellAlignment, ContentArrangement, Table};
+use comfy_table::Table;
 use serde::Serialize;
 
 pub use cases::{GROUPS, Group, Shot};
 
 use crate::args::SweepArgs;
-use crate::fitting_table::number;
 use crate::gpu::Gpu;
 use crate::opening::{make_directory, say};
 use crate::progress::bar;
 use crate::report::{self, RunReport, RunResult};
 use crate::run::run;
 use crate::stage::Stage;
+use crate::table::{self, percent};
 use crate::trace::Tracer;
 
 /// Width and height of the pictures, in pixels.
@@ -60,10 +59,10 @@ pub fn sweep(args: &SweepArgs) -> Result<()> {
         summaries.push(Summary::of(group.name, &of_group));
         runs.extend(of_group);
     }
-    say(&table(&summaries).to_string());
+    say(&overview(&summaries).to_string());
     for summary in &summaries {
         if let Some(worst) = &summary.worst {
-            say(&format!("{}: {} % false at worst: {worst}", summary.group, number(100.0 * summary.worst_false)));
+            say(&format!("{}: {} false at worst: {worst}", summary.group, percent(summary.worst_false)));
         }
     }
     report::write(&runs, &args.out.join("sweep.json"))?;
@@ -164,19 +163,9 @@ impl fmt::Display for SweepRun {
     }
 }
 
-fn table(summaries: &[Summary]) -> Table {
-    let mut table = Table::new();
-    table.load_style(UTF8_FULL_CONDENSED).set_content_arrangement(ContentArrangement::Disabled).set_header([
-        "group",
-        "maps",
-        "no map",
-        "pixels compared",
-        "missing",
-        "false",
-        "edge",
-        "false at worst",
-    ]);
-    let percent = |share: f64| format!("{} %", number(100.0 * share));
+fn overview(summaries: &[Summary]) -> Table {
+    let header = ["group", "maps", "no map", "pixels compared", "missing", "false", "edge", "false at worst"];
+    let mut table = table::new(header, 1..header.len());
     for summary in summaries {
         table.add_row([
             summary.group.to_owned(),
@@ -188,9 +177,6 @@ fn table(summaries: &[Summary]) -> Table {
             percent(summary.edge_share),
             percent(summary.worst_false),
         ]);
-    }
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
     }
     table
 }
