@@ -35,7 +35,8 @@ pub enum TextureOrigin {
     /// Top left: wgpu, Direct3D, Metal, Vulkan.
     #[default]
     TopLeft,
-    /// Bottom left: OpenGL.
+    /// Bottom left: OpenGL. With y down, this is OpenGL drawn upside down, its rasteriser as it is by default; drawn
+    /// upright with `glClipControl(GL_UPPER_LEFT, …)`, its textures begin top left and y is up.
     BottomLeft,
 }
 
