@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use shadowfit::glam::DVec3;
 use shadowfit::{DepthFormat, View};
 
@@ -57,14 +57,8 @@ impl Shot {
 /// All groups.
 pub const GROUPS: [Group; 13] = [
     Group { name: "classes-of-suns", shots: || Ok(vec![chess_board()?.shot("arc", suns_across)?]) },
-    Group {
-        name: "classes-of-lamps",
-        shots: || Ok(vec![chess_board()?.shot("line", |view| lamps_through_the_plane(view, 1.0))?]),
-    },
-    Group {
-        name: "through-the-back",
-        shots: || Ok(vec![chess_board()?.shot("viewer's back", |view| through_the_back(view, 1.0))?]),
-    },
+    Group { name: "classes-of-lamps", shots: || Ok(vec![chess_board()?.shot("line", lamps_through_the_plane)?]) },
+    Group { name: "through-the-back", shots: || Ok(vec![chess_board()?.shot("viewer's back", through_the_back)?]) },
     Group { name: "behind-the-eye", shots: || Ok(vec![Stand::built_in("behind")?.own_lights("figure")?]) },
     Group { name: "lights-inside", shots: lights_inside },
     Group { name: "flat", shots: flat },
@@ -93,10 +87,12 @@ struct Stand {
 
 impl Stand {
     fn built_in(name: &str) -> Result<Self> {
-        let scene = scene::load(Path::new(name))?;
-        let (min, max) = scene.mesh.bounds();
-        let above = Camera::looking_at(max + 0.2 * (max - min), 0.5 * (min + max), 0.9)?;
-        Ok(Self { camera: scene.camera.unwrap_or(above), scene })
+        Self::before(scene::load(Path::new(name))?)
+    }
+
+    fn before(scene: LoadedScene) -> Result<Self> {
+        let camera = scene.camera.with_context(|| format!("the scene '{}' has no camera", scene.name))?;
+        Ok(Self { scene, camera })
     }
 
     fn with_planes(mut self, near: f64, far: f64) -> Self {
@@ -164,7 +160,7 @@ fn flat() -> Result<Vec<Shot>> {
 fn far_planes() -> Result<Vec<Shot>> {
     [("endless", 1.0, f64::INFINITY), ("a million", 1.0, 1e6), ("near and endless", 1e-3, f64::INFINITY)]
         .into_iter()
-        .map(|(name, near, far)| Stand::built_in("chess-board")?.with_planes(near, far).own_lights(name))
+        .map(|(name, near, far)| chess_board()?.with_planes(near, far).own_lights(name))
         .collect()
 }
 
@@ -179,9 +175,8 @@ fn scales() -> Result<Vec<Shot>> {
     ]
     .into_iter()
     .map(|(name, scale, offset)| {
-        let scene = Stand::built_in("chess-board")?.scene.moved(scale, offset);
-        let camera = scene.camera.unwrap_or(Camera::looking_at(DVec3::ONE, DVec3::ZERO, 1.0)?);
-        Stand { scene, camera }.own_lights(name)
+        let moved = chess_board()?.scene.moved(scale, offset);
+        Stand::before(moved)?.own_lights(name)
     })
     .collect()
 }

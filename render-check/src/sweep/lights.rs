@@ -44,28 +44,28 @@ pub(super) fn suns_across(view: &View) -> Vec<NamedLight> {
         .collect()
 }
 
-/// Lamps to the right of the camera that move from before it through its plane to behind it, in steps of the unit.
-pub(super) fn lamps_through_the_plane(view: &View, unit: f64) -> Vec<NamedLight> {
-    let beside = view.eye() + unit * (5.0 * view.right() + 4.0 * view.up());
+/// Lamps to the right of the camera that move from before it through its plane to behind it.
+pub(super) fn lamps_through_the_plane(view: &View) -> Vec<NamedLight> {
+    let beside = view.eye() + 5.0 * view.right() + 4.0 * view.up();
     let steps: Vec<f64> = (-8..=8).filter(|&i| i != 0).map(f64::from).collect();
     through_zero(&steps)
         .into_iter()
         .map(|ahead| {
-            let position = beside + unit * ahead * view.forward();
+            let position = beside + ahead * view.forward();
             (format!("{ahead:+e} before the camera's plane"), lamp(position))
         })
         .collect()
 }
 
 /// Suns and lamps behind the viewer that pass through the axis of the view.
-pub(super) fn through_the_back(view: &View, unit: f64) -> Vec<NamedLight> {
+pub(super) fn through_the_back(view: &View) -> Vec<NamedLight> {
     let steps = through_zero(&[-2.0, -1.0, -0.5, 0.5, 1.0, 2.0]);
     let suns = steps.iter().map(|&aside| {
         let turn = DQuat::from_axis_angle(view.up(), (5.0 * aside).to_radians());
         (format!("sun {:+e} degrees from straight behind", 5.0 * aside), sun(turn * -view.forward()))
     });
     let lamps = steps.iter().map(|&aside| {
-        let position = view.eye() + unit * (aside * view.right() - 6.0 * view.forward());
+        let position = view.eye() + aside * view.right() - 6.0 * view.forward();
         (format!("lamp {aside:+e} beside the axis behind the eye"), lamp(position))
     });
     suns.chain(lamps).collect()
@@ -96,7 +96,7 @@ mod tests {
     #[test]
     fn suns_and_lamps_pass_through_every_class() {
         let suns = classes(&suns_across(&view()));
-        let lamps = classes(&lamps_through_the_plane(&view(), 1.0));
+        let lamps = classes(&lamps_through_the_plane(&view()));
         assert!(suns.len() >= 2 && lamps.len() >= 2, "{suns:?} {lamps:?}");
         let all: Vec<_> = suns.into_iter().chain(lamps).map(|kind| kind.to_string()).collect();
         for class in ["point", "inverted", "infinity plane"] {
