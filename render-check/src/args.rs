@@ -203,7 +203,7 @@ pub struct MapArgs {
     pub faces: Faces,
 
     /// How the map is read: nearest, hardware (2 x 2, blended), or pcfN for the mean over N x N texels
-    #[arg(long, value_name = "FILTER", default_value = "nearest", value_parser = parse_filter)]
+    #[arg(long, value_name = "FILTER", default_value_t = Filter::Nearest)]
     pub filter: Filter,
 
     /// Whose clip space the matrix is for; what another API's driver does with it is imitated
@@ -338,12 +338,6 @@ pub enum ClipArg {
     OpenglReversed,
 }
 
-impl ClipArg {
-    /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Wgpu, Self::WgpuReversed, Self::Vulkan, Self::VulkanReversed, Self::Opengl, Self::OpenglReversed];
-}
-
 impl From<ClipArg> for ClipSpace {
     fn from(clip: ClipArg) -> Self {
         match clip {
@@ -354,18 +348,6 @@ impl From<ClipArg> for ClipSpace {
             ClipArg::Opengl => Self::OPENGL,
             ClipArg::OpenglReversed => Self::OPENGL.reversed(),
         }
-    }
-}
-
-/// Reads `nearest`, `hardware` or `pcfN`.
-fn parse_filter(text: &str) -> Result<Filter, String> {
-    match text {
-        "nearest" => Ok(Filter::Nearest),
-        "hardware" => Ok(Filter::Hardware),
-        _ => match text.strip_prefix("pcf").map(str::parse) {
-            Some(Ok(taps @ 2..=15)) => Ok(Filter::PercentageCloser(taps)),
-            _ => Err("write nearest, hardware, or pcfN with N from 2 to 15".into()),
-        },
     }
 }
 

@@ -9,12 +9,13 @@ use serde::Serialize;
 
 use crate::args::CheckArgs;
 use crate::check_table::CheckTable;
+use crate::fitting::NoMap;
 use crate::gpu::Gpu;
 use crate::opening::{choose_lights, open, output_directory, place_camera, say, sort};
 use crate::picture::{Lighting, aliasing_map, difference, save, shaded, stored_map};
 use crate::progress::bar;
 use crate::report::{self, CameraReport, RunReport};
-use crate::run::{MapRun, NoMap, Options, run};
+use crate::run::{MapRun, Options, run};
 use crate::scene::Mesh;
 use crate::stage::{Stage, StageLight};
 

@@ -4,7 +4,8 @@ use std::fmt;
 
 use comfy_table::Table;
 
-use crate::run::{MapRun, NoMap, Options};
+use crate::fitting::NoMap;
+use crate::run::{MapRun, Options};
 use crate::table::{self, number, percent};
 use crate::verdict::{Cluster, Fault};
 

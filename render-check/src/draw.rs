@@ -6,8 +6,8 @@ use anyhow::{Context, Result};
 use shadowfit::{Outcome, Settings, View};
 
 use crate::args::DrawArgs;
-use crate::fitting::{LightFit, fit_light, lamp_near};
-use crate::fitting_table::{reason_without_map, table};
+use crate::fitting::{LightFit, fit_light, lamp_near, map_or_reason};
+use crate::fitting_table::table;
 use crate::opening::{choose_lights, open, output_directory, place_camera, say, sort};
 use crate::picture::{Lens, Lighting, Line, camera_view, light_lens, light_view, maps_view, save};
 use crate::trace::Tracer;
@@ -29,10 +29,10 @@ pub fn draw(args: &DrawArgs) -> Result<()> {
         .into_iter()
         .map(|light| fit_light(light, &view, &scene.mesh, lamp_near, &settings))
         .collect::<Result<Vec<_>>>()?;
-    say(&table(&fits, scene.mesh.bounds()).to_string());
+    say(&table(&fits, tracer.bounds()).to_string());
     for (i, fit) in fits.iter().enumerate() {
-        if let Some(reason) = reason_without_map(&fit.perspective.outcome) {
-            say(&format!("light {}: no map: {reason}", i + 1));
+        if let Err(none) = map_or_reason(fit.perspective.outcome) {
+            say(&format!("light {}: no map: {none}", i + 1));
         }
     }
 
@@ -79,8 +79,5 @@ fn draw_light(
 }
 
 fn map_lens(outcome: &Outcome) -> Result<Option<Lens>> {
-    match outcome {
-        Outcome::Map(map) => Lens::new(map.shadow_from_world()).map(Some),
-        _ => Ok(None),
-    }
+    outcome.map().map(|map| Lens::new(map.shadow_from_world())).transpose()
 }

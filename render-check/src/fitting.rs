@@ -1,11 +1,13 @@
 //! The calls into `shadowfit`: all that it says about one light, and how long it takes to say it.
 
+use std::fmt;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 use shadowfit::{
-    Body, Focus, Form, Light, LightClass, Outcome, Report, Scene, Settings, Shift, View, Warp, classify, fit,
+    Body, Empty, Focus, Form, Light, LightClass, Map, Outcome, Report, Scene, Settings, Shift, Surrounded, View,
+    Warp, classify, fit,
 };
 
 use crate::light::LightSpec;
@@ -45,6 +47,37 @@ pub struct LightFit {
     pub unshifted: Fitted,
     /// The median time of one perspective fit on this machine.
     pub median_time: Duration,
+}
+
+/// The fit's answer where there is no map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoMap {
+    /// None is needed.
+    Empty(Empty),
+    /// No single one will do.
+    Surrounded(Surrounded),
+}
+
+impl fmt::Display for NoMap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty(empty) => empty.fmt(f),
+            Self::Surrounded(surrounded) => surrounded.fmt(f),
+        }
+    }
+}
+
+/// The map of a fit, or why there is none.
+///
+/// # Errors
+///
+/// Where there is none.
+pub fn map_or_reason(outcome: Outcome) -> Result<Map, NoMap> {
+    match outcome {
+        Outcome::Map(map) => Ok(map),
+        Outcome::Empty(empty) => Err(NoMap::Empty(empty)),
+        Outcome::Surrounded(surrounded) => Err(NoMap::Surrounded(surrounded)),
+    }
 }
 
 /// The scene's box, as the fit wants it.

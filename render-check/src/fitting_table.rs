@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use comfy_table::Table;
 use shadowfit::glam::DVec3;
-use shadowfit::{Body, Outcome, Report};
+use shadowfit::{Body, Report};
 
 use crate::fitting::{Fitted, LightFit};
 use crate::table::{self, number};
@@ -28,16 +28,6 @@ pub fn table(fits: &[LightFit], bounds: (DVec3, DVec3)) -> Table {
         ]);
     }
     table
-}
-
-/// Why there is no map, where there is none: once for each reason.
-#[must_use]
-pub fn reason_without_map(outcome: &Outcome) -> Option<String> {
-    match outcome {
-        Outcome::Map(_) => None,
-        Outcome::Empty(empty) => Some(empty.to_string()),
-        Outcome::Surrounded(surrounded) => Some(surrounded.to_string()),
-    }
 }
 
 /// A figure of one map, or a dash where there is no map.

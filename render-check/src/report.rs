@@ -8,8 +8,9 @@ use serde::Serialize;
 use shadowfit::View;
 
 use crate::args::ClipArg;
+use crate::fitting::NoMap;
 use crate::gpu::{Filter, MapPass};
-use crate::run::{Drawn, MapRun, NoMap, Options, Times};
+use crate::run::{Drawn, MapRun, Options, Times};
 use crate::stage::StageLight;
 use crate::technique::Technique;
 use crate::verdict::Verdict;

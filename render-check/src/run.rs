@@ -1,15 +1,14 @@
 //! One run: one light, fitted in one way, drawn on the card and held against the truth.
 
-use std::fmt;
 use std::ops::Range;
 use std::time::Duration;
 
 use anyhow::{Context, Result};
 use serde::Serialize;
-use shadowfit::{DepthFormat, Empty, Focus, Form, Light, Map, Origin, Outcome, Settings, Surrounded, fit};
+use shadowfit::{DepthFormat, Focus, Form, Light, Map, Origin, Settings, fit};
 
 use crate::args::ClipArg;
-use crate::fitting::median_time;
+use crate::fitting::{NoMap, map_or_reason, median_time};
 use crate::gpu::{Bias, Filter, MapPass, ShadowMap, Shadows, shadow_test};
 use crate::scene::Mesh;
 use crate::stage::{Stage, StageLight};
@@ -81,24 +80,6 @@ pub fn enough_bias(format: DepthFormat, filter: Filter, rounding: f64) -> Bias {
     Bias { constant, slope: 2.0 * filter.reach() as f32 + 0.125 }
 }
 
-/// The fit's answer where there is no map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoMap {
-    /// None is needed.
-    Empty(Empty),
-    /// No single one will do.
-    Surrounded(Surrounded),
-}
-
-impl fmt::Display for NoMap {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Empty(empty) => empty.fmt(f),
-            Self::Surrounded(surrounded) => surrounded.fmt(f),
-        }
-    }
-}
-
 /// What culling against H left to draw.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Drawn {
@@ -128,10 +109,9 @@ impl FittedMap {
     /// When the settings cannot be used.
     pub fn new(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
         let focus = Focus::new(&stage.view, light, &stage.bounds);
-        let map = match focus.fit(&options.settings(stage.size[1])?) {
-            Outcome::Map(map) => map,
-            Outcome::Empty(empty) => return Ok(Err(NoMap::Empty(empty))),
-            Outcome::Surrounded(surrounded) => return Ok(Err(NoMap::Surrounded(surrounded))),
+        let map = match map_or_reason(focus.fit(&options.settings(stage.size[1])?)) {
+            Ok(map) => map,
+            Err(none) => return Ok(Err(none)),
         };
         let body = focus.body(Form::Tight);
         let objects = &stage.tracer.mesh().objects;

@@ -39,11 +39,6 @@ impl Technique {
 /// The word that the command line takes.
 impl fmt::Display for Technique {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Uniform => "uniform",
-            Self::Psm => "psm",
-            Self::PsmTight => "psm-tight",
-            Self::PsmUnshifted => "psm-unshifted",
-        })
+        self.to_possible_value().map_or(Ok(()), |value| f.pad(value.get_name()))
     }
 }

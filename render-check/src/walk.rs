@@ -18,6 +18,7 @@ use crate::stage::{Stage, StageLight};
 use crate::table::{self, percent};
 use crate::technique::Technique;
 use crate::trace::Tracer;
+use crate::verdict::share;
 
 /// How far the camera goes in a step by default, over the distance to what is in the middle of its picture.
 const PACE: f64 = 0.01;
@@ -48,7 +49,7 @@ impl Step {
     /// The share of pixels that changed; 0 where none was compared.
     #[must_use]
     pub fn share(&self) -> f64 {
-        if self.compared == 0 { 0.0 } else { self.changed as f64 / self.compared as f64 }
+        share(self.changed, self.compared)
     }
 }
 

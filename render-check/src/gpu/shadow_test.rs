@@ -1,6 +1,7 @@
 //! The shadow test of every pixel.
 
 use std::fmt;
+use std::str::FromStr;
 use std::time::Duration;
 
 use anyhow::Result;
@@ -40,6 +41,22 @@ impl fmt::Display for Filter {
             Self::Nearest => f.write_str("nearest"),
             Self::Hardware => f.write_str("hardware"),
             Self::PercentageCloser(taps) => write!(f, "pcf{taps}"),
+        }
+    }
+}
+
+/// The same word: `nearest`, `hardware`, or `pcfN` for N × N texels.
+impl FromStr for Filter {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "nearest" => Ok(Self::Nearest),
+            "hardware" => Ok(Self::Hardware),
+            _ => match text.strip_prefix("pcf").map(str::parse) {
+                Some(Ok(taps @ 2..=15)) => Ok(Self::PercentageCloser(taps)),
+                _ => Err("write nearest, hardware, or pcfN with N from 2 to 15".into()),
+            },
         }
     }
 }

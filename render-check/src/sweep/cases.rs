@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context, Result};
+use clap::ValueEnum as _;
 use shadowfit::glam::DVec3;
 use shadowfit::{DepthFormat, View};
 
@@ -184,7 +185,7 @@ fn scales() -> Result<Vec<Shot>> {
 /// Every clip space, fixed and floating point.
 fn clip_spaces() -> Vec<Options> {
     let mut all = Vec::new();
-    for clip in ClipArg::ALL {
+    for &clip in ClipArg::value_variants() {
         for format in [DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32] {
             all.extend(Technique::COMPARED.map(|technique| Options {
                 clip,

@@ -20,6 +20,7 @@ use crate::run::run;
 use crate::stage::Stage;
 use crate::table::{self, percent};
 use crate::trace::Tracer;
+use crate::verdict::share;
 
 /// Width and height of the pictures, in pixels.
 pub const IMAGE: [u32; 2] = [240, 150];
@@ -95,7 +96,7 @@ pub fn run_shots(gpu: &Gpu, group: &'static str, shots: &[Shot], done: impl Fn()
 }
 
 /// What came of a group.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Summary {
     /// The group.
     pub group: &'static str,
@@ -107,11 +108,11 @@ pub struct Summary {
     pub compared: usize,
     /// Pixels lit because a caster is missing.
     pub missing: usize,
-    /// False shadow and false light, as a part of all that was compared.
-    pub false_share: f64,
-    /// Wrong pixels at edges, likewise.
-    pub edge_share: f64,
-    /// The largest share of false pixels in a run.
+    /// False shadow and false light.
+    pub faults: usize,
+    /// Wrong pixels at edges.
+    pub edges: usize,
+    /// The largest share of false pixels in a run, 0 to 1.
     pub worst_false: f64,
     /// That run, if there is any false pixel.
     pub worst: Option<String>,
@@ -121,18 +122,7 @@ impl Summary {
     /// Sums up the runs of a group.
     #[must_use]
     pub fn of(group: &'static str, runs: &[SweepRun]) -> Self {
-        let (mut faults, mut edges) = (0, 0);
-        let mut summary = Self {
-            group,
-            maps: 0,
-            none: 0,
-            compared: 0,
-            missing: 0,
-            false_share: 0.0,
-            edge_share: 0.0,
-            worst_false: 0.0,
-            worst: None,
-        };
+        let mut summary = Self { group, ..Self::default() };
         for sweep_run in runs {
             summary.missing += sweep_run.run.missing();
             let RunResult::Map(map) = &sweep_run.run.result else {
@@ -142,16 +132,14 @@ impl Summary {
             let counts = &map.verdict.counts;
             summary.maps += 1;
             summary.compared += counts.compared;
-            faults += counts.faults();
-            edges += counts.edges();
+            summary.faults += counts.faults();
+            summary.edges += counts.edges();
             let share = counts.fraction(counts.faults());
             if share > summary.worst_false {
                 summary.worst_false = share;
                 summary.worst = Some(sweep_run.to_string());
             }
         }
-        let share = |count: usize| if summary.compared == 0 { 0.0 } else { count as f64 / summary.compared as f64 };
-        (summary.false_share, summary.edge_share) = (share(faults), share(edges));
         summary
     }
 }
@@ -173,8 +161,8 @@ fn overview(summaries: &[Summary]) -> Table {
             summary.none.to_string(),
             summary.compared.to_string(),
             summary.missing.to_string(),
-            percent(summary.false_share),
-            percent(summary.edge_share),
+            percent(share(summary.faults, summary.compared)),
+            percent(share(summary.edges, summary.compared)),
             percent(summary.worst_false),
         ]);
     }

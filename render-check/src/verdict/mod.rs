@@ -22,7 +22,7 @@ use rayon::prelude::*;
 use shadowfit::Map;
 
 pub use cluster::{Cluster, Fault};
-pub use report::{Aliasing, Counts, Mark, Verdict};
+pub use report::{Aliasing, Counts, Mark, Verdict, share};
 pub use surface::Surface;
 pub use truth::{Illumination, Truth, TruthImage};
 
@@ -105,10 +105,9 @@ pub fn judge(truth: &TruthImage, rendered: &Rendered<'_>, tracer: &Tracer) -> Re
     let comparison = Comparison { truth, rendered, tracer, texels: Texels::new(rendered.map, truth.view().eye()) };
     let marks: Vec<Mark> = (0..truth.pixels().len()).into_par_iter().map(|index| comparison.mark(index)).collect();
     let compared = || truth.pixels().par_iter().filter_map(Truth::compared);
-    let shadowed = compared().filter(|&(_, lit)| !lit).count();
     let aliasing = |surface: &Surface| rendered.map.aliasing(surface.point).unwrap_or(f64::INFINITY);
     Ok(Verdict {
-        counts: Counts::of(&marks, shadowed),
+        counts: Counts::of(&marks, truth.shadowed()),
         worst_cluster: cluster::worst_cluster(truth, &marks),
         aliasing: Aliasing::of(compared().map(|(surface, _)| aliasing(surface)).collect()),
         marks,

@@ -63,6 +63,12 @@ pub struct Counts {
     pub missing: usize,
 }
 
+/// A part of a whole, 0 to 1; 0 where there is nothing.
+#[must_use]
+pub fn share(part: usize, whole: usize) -> f64 {
+    if whole == 0 { 0.0 } else { part as f64 / whole as f64 }
+}
+
 impl Counts {
     /// Counts marks. `shadowed` is how many of the compared pixels are truly in shadow.
     pub(super) fn of(marks: &[Mark], shadowed: usize) -> Self {
@@ -98,7 +104,7 @@ impl Counts {
     /// One of the counts as a part of the compared pixels, 0 to 1; 0 where none were compared.
     #[must_use]
     pub fn fraction(&self, count: usize) -> f64 {
-        if self.compared == 0 { 0.0 } else { count as f64 / self.compared as f64 }
+        share(count, self.compared)
     }
 }
 

@@ -6,6 +6,7 @@ use shadowfit::View;
 
 use super::source::Source;
 use super::surface::{PixelRays, Surface};
+use crate::gpu::Surfaces;
 use crate::light::LightSpec;
 use crate::progress;
 use crate::trace::Tracer;
@@ -73,7 +74,7 @@ impl TruthImage {
     /// Traces a picture of `width` × `height` pixels.
     ///
     /// `triangles` says which triangle of the tracer's mesh the renderer saw at the middle of each pixel, row by row from
-    /// the top, and `u32::MAX` where it saw none. `lamp_near` is the distance from a lamp, in world units, at which its
+    /// the top, and [`Surfaces::SKY`] where it saw none. `lamp_near` is the distance from a lamp, in world units, at which its
     /// shadow map begins; a sun has none.
     ///
     /// # Errors
@@ -94,7 +95,7 @@ impl TruthImage {
             "a picture of {width} x {height} pixels needs a triangle for each, not {count} of them"
         );
         let known = mesh.triangles.len();
-        if let Some(unknown) = triangles.iter().find(|&&t| t != u32::MAX && t as usize >= known) {
+        if let Some(unknown) = triangles.iter().find(|&&t| t != Surfaces::SKY && t as usize >= known) {
             bail!(
                 "the renderer saw triangle {unknown} of a mesh that has {known}: it must draw the mesh that is traced"
             );
@@ -106,7 +107,7 @@ impl TruthImage {
         let rows = pixels.par_chunks_mut(width as usize).zip(triangles.par_chunks(width as usize));
         rows.enumerate().for_each(|(y, (pixels, triangles))| {
             for (x, (pixel, &triangle)) in pixels.iter_mut().zip(triangles).enumerate() {
-                let ray = if triangle == u32::MAX { None } else { rays.through(x as u32, y as u32) };
+                let ray = if triangle == Surfaces::SKY { None } else { rays.through(x as u32, y as u32) };
                 if let Some(ray) = ray {
                     let surface = Surface::seen(mesh, triangle as usize, &ray);
                     *pixel = Truth::Seen(surface, illumination(&source, tracer, &surface));

@@ -230,13 +230,13 @@ pub(super) fn scattered(thing: u32, property: u32) -> f64 {
     f64::from(bits) / (f64::from(u32::MAX) + 1.0)
 }
 
-/// How many edges of an object's triangles have no neighbour: none, where it is closed. Corners less than a micrometre
-/// apart count as one, if the unit is a metre.
+/// How many edges of an object's triangles have no neighbour: none, where it is closed. Corners less than a tenth
+/// of a micrometre apart count as one, if the unit is a metre.
 #[cfg(test)]
 pub(super) fn open_edges(mesh: &crate::scene::Mesh, object: &crate::scene::Object) -> usize {
     let mut balance = std::collections::HashMap::new();
     for triangle in object.triangles.clone() {
-        let corners = mesh.corners(triangle as usize).map(|p| p.to_array().map(|x| (x * 1e6).round() as i64));
+        let corners = mesh.corners(triangle as usize).map(|p| p.to_array().map(|x| (x * 1e7).round() as i64));
         for (a, b) in [(0, 1), (1, 2), (2, 0)] {
             *balance.entry([corners[a].min(corners[b]), corners[a].max(corners[b])]).or_insert(0) +=
                 if corners[a] < corners[b] { 1 } else { -1 };

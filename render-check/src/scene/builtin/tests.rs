@@ -1,15 +1,13 @@
 //! What holds for every built-in scene.
 
-use std::collections::HashMap;
-
 use shadowfit::View;
-use shadowfit::glam::DVec3;
 
+use super::solids::open_edges;
 use super::*;
 use crate::framing::Camera;
 use crate::light::LightSpec;
 use crate::picture::Lens;
-use crate::scene::{Mesh, Object};
+use crate::scene::Object;
 use crate::trace::{Hit, Ray, Tracer};
 
 mod coincidence;
@@ -70,26 +68,11 @@ fn making_a_scene_twice_makes_the_same() {
     }
 }
 
-/// Whether every edge of an object's triangles is run through as often one way as the other. The seam of a turned
-/// solid is off by a rounding.
-fn is_closed(mesh: &Mesh, object: &Object) -> bool {
-    let mut balance: HashMap<_, i32> = HashMap::new();
-    let key = |p: DVec3| p.to_array().map(|x| (x * 1e7).round() as i64);
-    for triangle in object.triangles.clone() {
-        let corners = mesh.corners(triangle as usize).map(key);
-        for (from, to) in [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (corners[i], corners[j])) {
-            let (edge, way) = if from < to { ((from, to), 1) } else { ((to, from), -1) };
-            *balance.entry(edge).or_default() += way;
-        }
-    }
-    balance.values().all(|&balance| balance == 0)
-}
-
 #[test]
 fn solids_are_closed_and_face_outwards_and_only_leaves_and_the_plate_are_open() {
     for scene in all() {
         let (closed, open): (Vec<&Object>, Vec<_>) =
-            scene.mesh.objects.iter().partition(|&object| is_closed(&scene.mesh, object));
+            scene.mesh.objects.iter().partition(|&object| open_edges(&scene.mesh, object) == 0);
         let sheets = match scene.name.as_str() {
             "leaves" => 8,
             "ground" => 1,
