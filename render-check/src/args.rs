@@ -150,7 +150,7 @@ pub struct ViewArgs {
     pub fov: Option<f64>,
 
     /// The camera's near plane, in world units [default: the scene's, else close to what is in view]
-    #[arg(long, value_name = "DISTANCE", value_parser = parse_distance)]
+    #[arg(long, value_name = "DISTANCE", value_parser = parse_finite_distance)]
     pub near: Option<f64>,
 
     /// The camera's far plane, in world units or inf [default: the scene's, else just behind the scene]
@@ -159,7 +159,7 @@ pub struct ViewArgs {
 
     /// The distance from a lamp at which its shadow map begins, in world units: inside any lampshade, but the smaller it
     /// is, the coarser is depth far from the lamp [default: a thousandth of the scene's diagonal]
-    #[arg(long, value_name = "DISTANCE", value_parser = parse_distance)]
+    #[arg(long, value_name = "DISTANCE", value_parser = parse_finite_distance)]
     pub lamp_near: Option<f64>,
 
     /// Width of the camera's image, in pixels
@@ -279,11 +279,11 @@ pub struct WalkArgs {
 
     /// How far the camera goes in a step, ahead and half as far aside, in world units
     /// [default: a hundredth of the distance to what is in the middle of the picture]
-    #[arg(long, value_name = "DISTANCE", value_parser = parse_distance)]
+    #[arg(long, value_name = "DISTANCE", value_parser = parse_finite_distance)]
     pub pace: Option<f64>,
 
     /// How far the camera turns in a step, in degrees
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.25, allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.25, value_parser = parse_angle, allow_hyphen_values = true)]
     pub turn: f64,
 }
 
@@ -386,6 +386,16 @@ fn parse_field_of_view(text: &str) -> Result<f64, String> {
     }
 }
 
+fn parse_angle(text: &str) -> Result<f64, String> {
+    let degrees = text.trim().parse().ok().filter(|degrees: &f64| degrees.is_finite());
+    degrees.ok_or_else(|| "an angle is a number of degrees".into())
+}
+
+fn parse_finite_distance(text: &str) -> Result<f64, String> {
+    let distance = parse_distance(text)?;
+    if distance.is_finite() { Ok(distance) } else { Err("this distance must have an end".into()) }
+}
+
 fn parse_distance(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(distance) if distance > 0.0 => Ok(distance),
@@ -461,6 +471,10 @@ mod tests {
             "--bias 1,NaN",
             "--technique lispsm",
             "draw --technique psm",
+            "--near inf",
+            "--lamp-near inf",
+            "walk --pace inf",
+            "walk --turn nan",
         ] {
             let line = format!("render-check {wrong}");
             assert!(Args::try_parse_from(line.split_whitespace()).is_err(), "{wrong:?}");

@@ -80,7 +80,12 @@ pub fn walk(args: &WalkArgs) -> Result<()> {
     let (camera, start) = place_camera(&args.view, &scene, &tracer)?;
     let gpu = Gpu::new()?;
     let pace = args.pace.unwrap_or_else(|| PACE * distance_ahead(&start, &tracer));
-    say(&format!("{} steps of {pace:.4}, turning {} degrees each; drawn by {}", args.steps, args.turn, gpu.name()));
+    say(&format!(
+        "{} step(s) of {pace:.4}, turning {} degrees each; drawn by {}",
+        args.steps,
+        args.turn,
+        gpu.name()
+    ));
 
     let options = args.map.options(1);
     let lights = choose_lights(&args.view, &scene);
