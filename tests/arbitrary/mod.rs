@@ -7,6 +7,7 @@
 //! - `params`: the numbers, what the crate makes of them, and a similarity that moves them.
 //! - `primitive`: directions, magnitudes, and values a few ulps from another.
 //! - `views`, `lights`, `scenes`: one strategy for each concept.
+//! - `together`: a case brought together, with settings, and points to try a map on.
 
 #![allow(dead_code, unused_imports, reason = "every target that takes this module in uses a part of it")]
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
@@ -15,12 +16,14 @@ mod lights;
 mod params;
 mod primitive;
 mod scenes;
+mod together;
 mod views;
 
 pub(crate) use lights::LightParams;
 pub(crate) use params::{Case, Similarity, plane};
 pub(crate) use primitive::{number_bits, rotation};
 pub(crate) use scenes::{SceneParams, SceneStore};
+pub(crate) use together::{Numbers, Together, points_of, settings};
 pub(crate) use views::{Frame, Pose, ViewParams, clip_space};
 
 use lights::light_place;

@@ -1,0 +1,152 @@
+//! What f32 makes of a map, over views, lights and scenes at random: all that must be in it is, and its depths are as
+//! quiet as it says.
+//!
+//! Each property runs some thousands of cases from a fixed seed; `SHADOWFIT_CASES=100000` in the environment runs that many
+//! of each instead.
+
+#![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
+
+mod arbitrary;
+
+use arbitrary::{SceneParams, Together, case, points_of, run, settings};
+use glam::{DVec3, DVec4, Vec4};
+use proptest::prelude::*;
+use shadowfit::{ClipSpace, DepthRange, Focus, Form, Light, Map, Origin, Outcome, Scene, Settings, View, Warp};
+
+/// What the f32 matrix makes of a position that is an f32 too, as a vertex shader does it.
+fn in_f32(map: &Map, view: &View, point: DVec3) -> Vec4 {
+    let origin = match map.settings().origin() {
+        Origin::World => DVec3::ZERO,
+        Origin::Eye => view.eye(),
+    };
+    map.matrix() * (point - origin).as_vec3().extend(1.0)
+}
+
+/// What eight roundings of f32 can move a point by across the clip volume, and w by relative to itself.
+fn rounding(map: &Map, view: &View, point: DVec3) -> (f64, f64) {
+    const UNITS: f64 = 8.0 / 16_777_216.0;
+    let rows = map.shadow_from_world().transpose();
+    let origin = match map.settings().origin() {
+        Origin::World => DVec3::ZERO,
+        Origin::Eye => view.eye(),
+    };
+    let w = rows.w_axis.dot(point.extend(1.0));
+    let [x, y, w] = [rows.x_axis, rows.y_axis, rows.w_axis].map(|row| {
+        let terms = row.truncate().abs().dot((point - origin).abs()) + row.dot(origin.extend(1.0)).abs();
+        UNITS * terms / w
+    });
+    (x.max(y) + w, w)
+}
+
+/// Whether a position is inside the sides of the clip volume, `inner` of the way from its middle.
+fn is_in_window(position: Vec4, inner: f64) -> bool {
+    let [x, y, _, w] = position.to_array().map(f64::from);
+    w > 0.0 && x.abs() <= inner * w && y.abs() <= inner * w
+}
+
+/// Whether a position is behind the near end of the depth range of a convention, and before its far end.
+fn is_in_depth(clip: ClipSpace, position: Vec4) -> [bool; 2] {
+    let (z, w) = (position.z, position.w);
+    match clip.depth {
+        DepthRange::ZeroToOne => [z >= 0.0, z <= w],
+        DepthRange::ZeroToOneReversed => [z <= w, z >= 0.0],
+        DepthRange::NegativeOneToOne => [z >= -w, z <= w],
+        DepthRange::NegativeOneToOneReversed => [z <= w, z >= -w],
+    }
+}
+
+#[test]
+fn maps_hold_what_they_must() {
+    run(5000, &(case(), settings(), any::<u64>()), |(case, settings, seed)| {
+        let together = Together::of(&case);
+        let focus = together.focus();
+        let Outcome::Map(map) = focus.fit(&settings) else { return };
+        // The border is measured in f64 after the division, which is a rounding more than the map answers for.
+        let border = f64::from(settings.border()) / f64::from(settings.map_size());
+        let inner = (1.0 - 2.0 * border) * (1.0 + f64::EPSILON);
+        let visible = points_of(&focus.visible(), seed);
+        let body = focus.body(Form::Tight);
+        let casters = together.casters(&body, &visible, seed);
+        let l = together.light.homogeneous();
+        for (name, points, inner) in [("R", visible, inner), ("H", casters, 1.0)] {
+            for point in points {
+                // A scene of millimetres about a lamp a thousand kilometres from the origin is beyond f32: w may be 0.
+                let (across, of_w) = rounding(&map, &together.view, point);
+                if !together.is_served(point) || of_w > 0.5 {
+                    continue;
+                }
+                // A caster next to a lamp, whose place f32 cannot tell to a thousandth of the window, may be off by that.
+                let is_beside_lamp = name == "H" && l.w > 0.0 && across > 1.0 / 1024.0;
+                let inner = if is_beside_lamp { inner + across } else { inner };
+                let position = in_f32(&map, &together.view, point);
+                let shown = position.truncate() / position.w;
+                assert!(is_in_window(position, inner), "{name}: {point} is at {shown}, w {}", position.w);
+                if is_beside_lamp {
+                    continue;
+                }
+                // Among lists, receivers may be nearer to the light than the first caster.
+                let separate = matches!(case.scene, SceneParams::Lists { .. });
+                let [behind, before] = is_in_depth(settings.clip(), position);
+                assert!(behind || separate && name == "R", "{name}: {point} is before the near end, at {shown}");
+                assert!(before, "{name}: {point} is beyond the far end, at {shown}");
+            }
+        }
+    });
+}
+
+/// Depth from 0 at the near end to 1 at the far end, in any convention.
+fn depth_of(clip: ClipSpace, position: DVec4) -> f64 {
+    let z = position.z / position.w;
+    match clip.depth {
+        DepthRange::ZeroToOne => z,
+        DepthRange::ZeroToOneReversed => 1.0 - z,
+        DepthRange::NegativeOneToOne => 0.5 + 0.5 * z,
+        DepthRange::NegativeOneToOneReversed => 0.5 - 0.5 * z,
+    }
+}
+
+#[test]
+fn depths_are_as_quiet_as_the_map_says() {
+    run(5000, &(case(), settings(), any::<u64>()), |(case, settings, seed)| {
+        let together = Together::of(&case);
+        let focus = together.focus();
+        let Outcome::Map(map) = focus.fit(&settings) else { return };
+        let noise = map.depth().rounding;
+        for point in points_of(&focus.visible(), seed) {
+            let (_, of_w) = rounding(&map, &together.view, point);
+            if !together.is_served(point) || of_w > 0.5 {
+                continue;
+            }
+            let in_f32 = depth_of(settings.clip(), in_f32(&map, &together.view, point).as_dvec4());
+            let exact = depth_of(settings.clip(), map.shadow_from_world() * point.extend(1.0));
+            // w is off by a part of itself, which counts for more where much of it is lost.
+            assert!((in_f32 - exact).abs() <= noise / (1.0 - of_w), "{point}: {in_f32} {exact}, noise {noise}");
+        }
+    });
+}
+
+/// Found by drawing it: with a depth range no longer than needed, all of a plate under the sun shadowed itself.
+#[test]
+fn a_plate_under_light_from_above_does_not_drown_in_noise() {
+    let view =
+        View::perspective((0.0, 2.0, 12.0), (0.0, -0.2, -1.0), DVec3::Y, 1.0, 1.6, 0.1, 100.0).expect("sound");
+    let scene = Scene::from_box((-20.0, 0.0, -20.0), (20.0, 0.0, 20.0)).expect("sound");
+    let lights = [
+        Light::directional(DVec3::Y),
+        Light::directional((1e-3, 1.0, -2e-3)),
+        Light::point((1.0, 30.0, 2.0), 0.1, f64::INFINITY),
+    ];
+    for light in lights.map(|light| light.expect("sound")) {
+        for warp in [Warp::Uniform, Warp::Perspective] {
+            for origin in [Origin::World, Origin::Eye] {
+                let settings = Settings::default().with_warp(warp).with_origin(origin);
+                let focus = Focus::new(&view, &light, &scene);
+                let map = *focus.fit(&settings).map().expect("one map does");
+                let noise = map.depth().rounding;
+                let of_w = |point: &DVec3| rounding(&map, &view, *point).1;
+                let of_w = focus.visible().vertices().iter().map(of_w).fold(0.0, f64::max);
+                assert!(noise <= 16.0 / 16_777_216.0 + 2.0 * of_w, "{light:?}, {warp:?}, {origin:?}: {noise}");
+            }
+        }
+    }
+}
