@@ -98,6 +98,8 @@ mod scene;
 mod settings;
 mod view;
 mod warp;
+#[cfg(feature = "wgsl")]
+pub mod wgsl;
 
 pub use clip_space::{ClipSpace, DepthRange, TextureOrigin, YAxis};
 pub use convex::{Body, Face, Plane};
