@@ -29,7 +29,7 @@ pub struct InputError {
 pub enum Problem {
     /// NaN or infinite where a number is needed.
     NotFinite,
-    /// A length or count that must be positive and no smaller than [`MIN_DISTANCE`].
+    /// A length or count that must be positive and no smaller than [`MIN_DISTANCE`], or a part less than 0.
     TooSmall,
     /// Larger than [`MAX_COORDINATE`], or than what its documentation allows.
     TooLarge,
@@ -45,6 +45,8 @@ pub enum Problem {
     NotRigid,
     /// A projection that is neither perspective nor orthographic, or whose near plane is oblique.
     NotAProjection,
+    /// A light that shines neither all around nor into a half space.
+    NotAllAround,
     /// A list with nothing in it.
     Empty,
     /// A list longer than its documentation allows.
@@ -65,6 +67,7 @@ impl fmt::Display for Problem {
             Self::NotAProjection => {
                 "is no perspective or orthographic projection with its near plane facing the eye"
             }
+            Self::NotAllAround => "shines neither all around nor into a half space",
             Self::Empty => "is empty",
             Self::TooMany => "holds too many elements",
         })
@@ -114,6 +117,18 @@ pub(crate) mod check {
     pub(crate) fn distance(field: &'static str, value: f64) -> Result<f64, InputError> {
         coordinate(field, value)?;
         if value < MIN_DISTANCE { fail(field, Problem::TooSmall) } else { Ok(value) }
+    }
+
+    /// A number from 0 to `most`.
+    pub(crate) fn part(field: &'static str, value: f64, most: f64) -> Result<f64, InputError> {
+        let value = coordinate(field, value)?;
+        if value < 0.0 {
+            fail(field, Problem::TooSmall)
+        } else if value > most {
+            fail(field, Problem::TooLarge)
+        } else {
+            Ok(value)
+        }
     }
 
     /// A positive distance, or infinity.

@@ -65,8 +65,8 @@ impl fmt::Display for Empty {
 /// The light stands among what is visible and lit: every plane through it has some of that on both sides, so that one
 /// frustum cannot hold it all.
 ///
-/// What serves instead: the light cut into spots, one fit each (the faces of a cube, or [`Light::spot`]s where it is
-/// needed), or, for a [`Light::hemisphere`] or a pair of them, paraboloid maps (Brabec, Annen & Seidel 2002).
+/// What serves instead: the light cut into parts, one fit each (the faces of a cube, [`Light::cube_face`], or
+/// [`Light::spot`]s where it is needed), or, for a [`Light::hemisphere`] or a pair of them, paraboloid maps (Brabec, Annen & Seidel 2002).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Surrounded;
@@ -75,7 +75,7 @@ impl fmt::Display for Surrounded {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(
             "the light stands among what is visible, which no single frustum holds: \
-             fit the faces of a cube as spots, or use paraboloid maps",
+             fit the faces of a cube around it, or use paraboloid maps",
         )
     }
 }

@@ -77,6 +77,7 @@ mod axis;
 mod bounds;
 mod clip_space;
 mod convex;
+mod cube;
 mod cull;
 mod decode;
 mod error;
@@ -103,6 +104,7 @@ pub mod wgsl;
 
 pub use clip_space::{ClipSpace, DepthRange, TextureOrigin, YAxis};
 pub use convex::{Body, Face, Plane};
+pub use cube::CubeFace;
 pub use cull::Culler;
 pub use error::{InputError, MAX_COORDINATE, MIN_DISTANCE, Problem};
 pub use fit::{Empty, Outcome, Surrounded, fit};

@@ -1,6 +1,7 @@
 //! The light l, and L, what it can light.
 
 use crate::convex::Plane;
+use crate::cube::CubeFace;
 use crate::error::{InputError, Problem, check};
 use glam::{DVec2, DVec3, DVec4};
 
@@ -41,6 +42,12 @@ enum Shape {
     },
     Hemisphere {
         axis: DVec3,
+    },
+    /// What a point light or, with an axis, a hemisphere lights of a face.
+    CubeFace {
+        face: CubeFace,
+        overlap: f64,
+        hemisphere: Option<DVec3>,
     },
 }
 
@@ -108,6 +115,30 @@ impl Light {
         Self::local(position.into(), near, range, Shape::Hemisphere { axis })
     }
 
+    /// The part of a point light or a hemisphere that shines through a face of the cube around it: where one map is not
+    /// enough, as within a room, six of these have one each.
+    ///
+    /// `overlap` widens the face, so that a filter next to a seam reads in one map what it should: the sides stand at
+    /// tangent `1 + overlap` to the face's axis instead of 1. [`CubeFace::overlap`] says how much a filter needs. Which
+    /// face a point is in does not depend on it: [`CubeFace::of`].
+    ///
+    /// # Errors
+    ///
+    /// Names `"light"` when it is directional, a spot, or a face already, and `"overlap"` when it is not in
+    /// \[0, [`CubeFace::MAX_OVERLAP`]\].
+    pub fn cube_face(&self, face: CubeFace, overlap: f64) -> Result<Self, InputError> {
+        let overlap = check::part("overlap", overlap, CubeFace::MAX_OVERLAP)?;
+        let Kind::Local { position, near, range, shape } = self.kind else {
+            return check::fail("light", Problem::NotAllAround);
+        };
+        let hemisphere = match shape {
+            Shape::Point => None,
+            Shape::Hemisphere { axis } => Some(axis),
+            Shape::Spot { .. } | Shape::CubeFace { .. } => return check::fail("light", Problem::NotAllAround),
+        };
+        Self::local(position, near, range, Shape::CubeFace { face, overlap, hemisphere })
+    }
+
     fn local(position: DVec3, near: f64, range: f64, shape: Shape) -> Result<Self, InputError> {
         let position = check::point("position", position)?;
         let near = check::distance("near", near)?;
@@ -157,7 +188,8 @@ impl Light {
     /// The planes of L in world space, inside ≥ 0; none for a light without bounds.
     ///
     /// A spot's are the four sides of the pyramid around its cone, its near plane and, with a finite range, its far
-    /// plane; a hemisphere's its near plane and the rest of a box; a point light's the box around its range.
+    /// plane; a hemisphere's its near plane and the rest of a box; a point light's the box around its range. A cube
+    /// face's are those of a spot's pyramid, and a hemisphere's own plane.
     #[must_use]
     pub fn planes(&self) -> LightPlanes {
         let mut planes = LightPlanes { planes: [Plane::ONE; Self::MAX_PLANES], len: 0 };
@@ -185,15 +217,28 @@ impl Light {
                 planes.push_slab(u, position, -range, range);
                 planes.push_slab(v, position, -range, range);
             }
+            Shape::CubeFace { face, overlap, hemisphere } => {
+                let (axis, tangent) = (face.axis(), 1.0 + overlap);
+                // The next two axes of the world in turn, whichever way they point.
+                let (u, v) = (DVec3::new(axis.z, axis.x, axis.y), DVec3::new(axis.y, axis.z, axis.x));
+                for side in [u, -u, v, -v] {
+                    planes.push(Plane::through(axis * tangent - side, position));
+                }
+                // At the pyramid's edges a point at distance `near` is only this far along the axis.
+                planes.push_slab(axis, position, near / DVec3::new(1.0, tangent, tangent).length(), range);
+                if let Some(axis) = hemisphere {
+                    planes.push(Plane::through(axis, position));
+                }
+            }
         }
         planes
     }
 
-    /// The most planes that L can have.
-    pub(crate) const MAX_PLANES: usize = 6;
+    /// The most planes that L can have: those of a hemisphere's cube face.
+    pub(crate) const MAX_PLANES: usize = 7;
 }
 
-/// Up to six planes, as [`Light::planes`] returns them.
+/// Up to seven planes, as [`Light::planes`] returns them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightPlanes {
     planes: [Plane; Light::MAX_PLANES],
@@ -258,6 +303,11 @@ mod stored {
                     Shape::Point => Self::point(position, near, range),
                     Shape::Spot { axis, half_angle } => Self::spot(position, axis, half_angle, near, range),
                     Shape::Hemisphere { axis } => Self::hemisphere(position, axis, near, range),
+                    Shape::CubeFace { face, overlap, hemisphere } => match hemisphere {
+                        None => Self::point(position, near, range),
+                        Some(axis) => Self::hemisphere(position, axis, near, range),
+                    }?
+                    .cube_face(face, overlap),
                 },
             }
         }

@@ -3,8 +3,8 @@
 
 use shadowfit::glam::{DMat4, DVec3, DVec4, Vec3};
 use shadowfit::{
-    Aabb, ClipSpace, ConvexScene, InputError, Light, MAX_COORDINATE, MIN_DISTANCE, Outcome, Plane, Problem, Scene,
-    Settings, View, fit,
+    Aabb, ClipSpace, ConvexScene, CubeFace, InputError, Light, MAX_COORDINATE, MIN_DISTANCE, Outcome, Plane,
+    Problem, Scene, Settings, View, fit,
 };
 
 const NAN: f64 = f64::NAN;
@@ -101,6 +101,24 @@ fn angles() {
     // An angle in its range may have a tangent that is not.
     refused(View::perspective(EYE, DVec3::X, DVec3::Y, DENORMAL, 1.0, 0.1, 9.0), "fov_y", Problem::TooSmall);
     refused(View::perspective(EYE, DVec3::X, DVec3::Y, PI.next_down(), 1.0, 0.1, 9.0), "fov_y", Problem::TooLarge);
+}
+
+#[test]
+fn cube_faces() {
+    let face = CubeFace::NegativeY;
+    let lamp = Light::point(EYE, 0.1, 9.0).unwrap();
+    for bad in [NAN, INFINITY, -INFINITY] {
+        refused(lamp.cube_face(face, bad), "overlap", Problem::NotFinite);
+    }
+    refused(lamp.cube_face(face, -1e-9), "overlap", Problem::TooSmall);
+    refused(lamp.cube_face(face, CubeFace::MAX_OVERLAP.next_up()), "overlap", Problem::TooLarge);
+    for light in [
+        Light::directional(DVec3::X).unwrap(),
+        Light::spot(EYE, DVec3::X, 1.0, 0.1, 9.0).unwrap(),
+        lamp.cube_face(face, CubeFace::MAX_OVERLAP).unwrap(),
+    ] {
+        refused(light.cube_face(face, 0.0), "light", Problem::NotAllAround);
+    }
 }
 
 /// Distances and factors that must be positive, finite, and neither tiny nor huge.
@@ -376,6 +394,7 @@ fn messages_are_sentences() {
         Light::spot(EYE, DVec3::X, 2.0, 0.1, 9.0).unwrap_err(),
         Light::point(EYE, 0.0, 9.0).unwrap_err(),
         Light::point(EYE, NAN, 9.0).unwrap_err(),
+        Light::directional(DVec3::X).unwrap().cube_face(CubeFace::PositiveX, 0.0).unwrap_err(),
         Scene::new(&[], &[]).unwrap_err(),
         ConvexScene::new(DVec3::ZERO, DVec3::ONE, &[Plane::ONE; 99]).unwrap_err(),
         Settings::default().with_border(4000).unwrap_err(),

@@ -413,6 +413,11 @@ fn anything() -> impl Strategy<Value = Case> {
             ),
             (triple(), triple(), number(), maybe())
                 .prop_map(|(position, axis, near, range)| LightParams::Hemisphere { position, axis, near, range }),
+            (triple(), prop::option::of(triple()), number(), maybe(), 0..6_usize, number()).prop_map(
+                |(position, axis, near, range, face, overlap)| {
+                    LightParams::CubeFace { position, axis, near, range, face, overlap }
+                }
+            ),
         ];
     let planes = prop::collection::vec([number(), number(), number(), number()], 0..14);
     let boxes = move || {

@@ -7,9 +7,9 @@ use serde::de::DeserializeOwned;
 use serde_json::{Value, from_str, from_value, json, to_string, to_value};
 use shadowfit::glam::{DMat4, DVec3, DVec4, Vec3};
 use shadowfit::{
-    Aabb, ClipSpace, DepthFormat, DepthResolution, DepthSpan, Empty, Focus, Footprint, Form, Light, LightClass,
-    NearCase, Origin, Outcome, Plane, Scene, Settings, Shift, Surrounded, View, VirtualCamera, Warp, Window,
-    classify,
+    Aabb, ClipSpace, CubeFace, DepthFormat, DepthResolution, DepthSpan, Empty, Focus, Footprint, Form, Light,
+    LightClass, NearCase, Origin, Outcome, Plane, Scene, Settings, Shift, Surrounded, View, VirtualCamera, Warp,
+    Window, classify,
 };
 
 #[track_caller]
@@ -95,7 +95,12 @@ fn lights() {
     comes_back(Light::directional((0.3, 1.0, 0.2)).unwrap());
     comes_back(Light::point((0.3, 1.0, 0.2), 0.1, f64::INFINITY).unwrap());
     comes_back(spot());
-    comes_back(Light::hemisphere((0.3, 1.0, 0.2), (0.2, -1.0, 0.7), 0.1, 9.0).unwrap());
+    let hemisphere = Light::hemisphere((0.3, 1.0, 0.2), (0.2, -1.0, 0.7), 0.1, 9.0).unwrap();
+    comes_back(hemisphere);
+    for face in CubeFace::ALL {
+        comes_back(hemisphere.cube_face(face, 0.01).unwrap());
+        comes_back(Light::point((0.3, 1.0, 0.2), 0.1, f64::INFINITY).unwrap().cube_face(face, 0.0).unwrap());
+    }
 }
 
 /// A unit vector that is made unit length again may change by a rounding, and must not at the second reading.
@@ -118,6 +123,9 @@ fn tampered_lights() {
     tampered(&spot, &place("position/1"), json!(1e200), "position is too large");
     tampered(&spot, &place("shape/Spot/half_angle"), json!(1.6), "half_angle is outside the open range");
     tampered(&spot, &place("shape/Spot/axis"), json!([0.0, 0.0, 0.0]), "axis has no direction");
+    let face = Light::point((0.3, 1.0, 0.2), 0.1, 9.0).unwrap().cube_face(CubeFace::PositiveZ, 0.01).unwrap();
+    tampered(&face, &place("shape/CubeFace/overlap"), json!(-0.1), "overlap is too small");
+    tampered(&face, &place("shape/CubeFace/hemisphere"), json!([0.0, 0.0, 0.0]), "axis has no direction");
     let sun = Light::directional(DVec3::Y).unwrap();
     let place = "/kind/Directional/direction_to_light";
     tampered(&sun, place, json!([0.0, -0.0, 0.0]), "direction_to_light has no direction");

@@ -24,6 +24,8 @@ Examples:
       a file, a camera and a sun of your own
   render-check room.glb --light point:0,2.4,0/12 --light spot:3,3,0/0,0,0/50 --filter pcf3
       a lamp that reaches 12 units and a spot with a cone of 50 degrees, read with 3 x 3 texels
+  render-check room --light point:0,1.5,-2.5 --technique cube --technique cube-psm
+      a lamp among what it lights: a map for each face of the cube around it
   render-check draw city.glb --near 1 --far inf --size 2048
       only the fit and its pictures, by ray casting: needs no graphics driver
   render-check walk street --steps 48
@@ -47,7 +49,8 @@ What is compared: every pixel that the light could reach, were nothing in its wa
 crate's matrix and tests the pixel against it; a ray from the same point to the light says what is true.
 
 The table:
-  drawn       triangles that culling against H left to draw, of all
+  passes      maps drawn: one, or one for each face of a cube that has anything to hold
+  drawn       triangles that culling against H left to draw, over all passes, of those in the scene
   aliasing    the longer side of a texel over that of a pixel: at worst among the pixels, and the median
   missing     pixels lit because a caster was clipped or culled: must be none
   false       false shadow and false light, away from edges, in percent of what is compared
@@ -60,7 +63,7 @@ Written to --out, per light and map:
   N-KIND-truth.png         the camera's view with ray-traced shadows
   N-KIND-MAP-image.png     the same with the shadows of the map
   N-KIND-MAP-faults.png    false shadow red, false light blue, edges amber, missing casters magenta
-  N-KIND-MAP-map.png       the shadow map
+  N-KIND-MAP-map.png       the shadow map; those of a cube's faces from left to right, +x first
   N-KIND-MAP-aliasing.png  texel over pixel";
 
 const DRAW_HELP: &str = "\
@@ -437,7 +440,7 @@ mod tests {
     #[test]
     fn every_example_in_the_help_is_a_command() {
         let commands: Vec<_> = EXAMPLES.lines().filter(|line| line.starts_with("  render-check")).collect();
-        assert_eq!(commands.len(), 7);
+        assert_eq!(commands.len(), 8);
         for command in commands {
             Args::try_parse_from(command.split_whitespace()).expect(command);
         }

@@ -12,7 +12,7 @@ use crate::check_table::CheckTable;
 use crate::fitting::NoMap;
 use crate::gpu::Gpu;
 use crate::opening::{choose_lights, open, output_directory, place_camera, say, sort};
-use crate::picture::{Lighting, aliasing_map, difference, save, shaded, stored_map};
+use crate::picture::{Lighting, aliasing_map, difference, save, shaded, side_by_side, stored_map};
 use crate::progress::bar;
 use crate::report::{self, CameraReport, RunReport};
 use crate::run::{MapRun, Options, run};
@@ -60,7 +60,7 @@ pub fn check(args: &CheckArgs) -> Result<()> {
         for options in &options {
             let result = run(&stage, &light, options)?;
             match &result {
-                Ok(run) => table.add_map(options, run),
+                Ok(run) => table.add_maps(options, run),
                 Err(none) => table.add_no_map(options, none),
             }
             pictures.of_run(options, &result)?;
@@ -121,7 +121,9 @@ impl<'a> Pictures<'a> {
         let name = format!("{}-{}", options.technique, options.map_size);
         self.save(&format!("{name}-image"), &shaded(&self.light.truth, &self.lighting, self.mesh, &run.lit))?;
         self.save(&format!("{name}-faults"), &difference(&self.truth, &run.verdict.marks))?;
-        self.save(&format!("{name}-map"), &stored_map(&run.map, &run.depths))?;
-        self.save(&format!("{name}-aliasing"), &aliasing_map(&self.light.truth, &run.map))
+        let of_maps = run.fitted.maps.iter().flatten().zip(&run.depths);
+        let stored: Vec<_> = of_maps.map(|(fitted, depths)| stored_map(&fitted.map, depths)).collect();
+        self.save(&format!("{name}-map"), &side_by_side(&stored))?;
+        self.save(&format!("{name}-aliasing"), &aliasing_map(&self.light.truth, |point| run.aliasing(point)))
     }
 }

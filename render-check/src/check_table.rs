@@ -1,4 +1,4 @@
-//! What is printed of a check: a row for each map of a light.
+//! What is printed of a check: a row for each kind of map of a light.
 
 use std::fmt;
 
@@ -16,8 +16,8 @@ pub struct CheckTable {
     reasons: Vec<String>,
 }
 
-const COLUMNS: [&str; 10] =
-    ["map", "drawn", "aliasing", "missing", "false", "edge", "worst", "fit", "map pass", "test"];
+const COLUMNS: [&str; 11] =
+    ["map", "passes", "drawn", "aliasing", "missing", "false", "edge", "worst", "fit", "map pass", "test"];
 
 impl CheckTable {
     /// No rows yet.
@@ -26,13 +26,14 @@ impl CheckTable {
         Self { table: table::new(COLUMNS, 1..COLUMNS.len()), reasons: Vec::new() }
     }
 
-    /// A row for a map.
-    pub fn add_map(&mut self, options: &Options, run: &MapRun) {
+    /// A row for a light's maps.
+    pub fn add_maps(&mut self, options: &Options, run: &MapRun) {
         let counts = &run.verdict.counts;
         let share = |count: usize| percent(counts.fraction(count));
         let milliseconds = |time: Option<f64>| time.map_or_else(|| "-".into(), |ms| format!("{ms:.2} ms"));
         self.table.add_row([
             name(options),
+            run.depths.len().to_string(),
             format!("{:.0} %", 100.0 * run.drawn.triangles as f64 / run.drawn.of_triangles as f64),
             run.verdict.aliasing.map_or_else(
                 || "-".into(),

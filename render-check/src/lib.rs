@@ -15,7 +15,8 @@
 //! | [`gpu`] | the passes on the card: camera, shadow map, shadow test |
 //! | [`verdict`] | the truth about every pixel, and what is wrong with a rendered one |
 //! | [`stage`] | one camera before one scene, drawn |
-//! | [`technique`], [`run`] | one light through one kind of map: fitted, culled, drawn, tested, judged |
+//! | [`split`] | which of a light's maps answers for a point |
+//! | [`technique`], [`fitted_maps`], [`run`] | one light through one kind of map: fitted, culled, drawn, tested, judged |
 //! | [`report`], [`table`], [`check_table`] | what is written and printed of it |
 //! | [`picture`] | what is written as PNG |
 //!
@@ -37,6 +38,7 @@ pub mod args;
 pub mod check;
 pub mod check_table;
 pub mod draw;
+pub mod fitted_maps;
 pub mod fitting;
 pub mod fitting_table;
 pub mod framing;
@@ -48,6 +50,7 @@ pub mod progress;
 pub mod report;
 pub mod run;
 pub mod scene;
+pub mod split;
 pub mod stage;
 pub mod sweep;
 pub mod table;

@@ -6,11 +6,13 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use serde::Serialize;
 use shadowfit::View;
+use shadowfit::glam::DVec3;
 
 use crate::args::ClipArg;
+use crate::fitted_maps::{Drawn, FittedMap};
 use crate::fitting::NoMap;
 use crate::gpu::{Filter, MapPass};
-use crate::run::{Drawn, MapRun, Options, Times};
+use crate::run::{MapRun, Options, Times};
 use crate::stage::StageLight;
 use crate::technique::Technique;
 use crate::verdict::Verdict;
@@ -63,8 +65,8 @@ pub struct RunReport {
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub enum RunResult {
-    /// A map.
-    Map(Box<MapReport>),
+    /// A map, or several.
+    Maps(Box<MapsReport>),
     /// No map.
     NoMap {
         /// The crate's own words.
@@ -74,22 +76,61 @@ pub enum RunResult {
     },
 }
 
-/// What came of a map.
+/// What came of maps.
 #[derive(Clone, Debug, Serialize)]
+pub struct MapsReport {
+    /// How many maps were drawn, a pass each.
+    pub passes: usize,
+    /// How many parts of the light were left out, as nothing there needs a map.
+    pub left_out: usize,
+    /// The texels of all maps.
+    pub texels: u64,
+    /// Each map that was drawn.
+    pub maps: Vec<MapReport>,
+    /// What was drawn into them.
+    pub drawn: Drawn,
+    /// How long it took.
+    pub times: Times,
+    /// How they compare with the truth.
+    #[serde(flatten)]
+    pub verdict: Verdict,
+}
+
+/// One map.
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct MapReport {
+    /// The middle direction of the part of the light that it is for; zeros for all of the light.
+    pub axis: [f64; 3],
     /// How far the warp's camera moved back, in world units.
     pub shift: f64,
     /// How much of the warp is left out, see [`shadowfit::Map::weakening`].
     pub weakening: f64,
     /// How the map was drawn.
     pub pass: MapPass,
-    /// What was drawn into it.
-    pub drawn: Drawn,
-    /// How long it took.
-    pub times: Times,
-    /// How it compares with the truth.
-    #[serde(flatten)]
-    pub verdict: Verdict,
+}
+
+impl MapReport {
+    fn new(axis: DVec3, fitted: &FittedMap) -> Self {
+        let map = &fitted.map;
+        Self { axis: axis.to_array(), shift: map.camera().shift, weakening: map.weakening(), pass: fitted.pass }
+    }
+}
+
+impl MapsReport {
+    fn new(run: &MapRun) -> Self {
+        let fitted = &run.fitted;
+        let of = fitted.split.axes().iter().zip(&fitted.maps);
+        let maps: Vec<_> = of.filter_map(|(&axis, map)| Some(MapReport::new(axis, map.as_ref()?))).collect();
+        Self {
+            passes: maps.len(),
+            left_out: fitted.maps.len() - maps.len(),
+            texels: run.depths.iter().map(|depths| depths.len() as u64).sum(),
+            maps,
+            drawn: run.drawn,
+            times: run.times,
+            verdict: run.verdict.clone(),
+        }
+    }
 }
 
 impl RunReport {
@@ -97,14 +138,7 @@ impl RunReport {
     #[must_use]
     pub fn new(view: &View, light: &StageLight, options: &Options, run: &Result<MapRun, NoMap>) -> Self {
         let result = match run {
-            Ok(run) => RunResult::Map(Box::new(MapReport {
-                shift: run.map.camera().shift,
-                weakening: run.map.weakening(),
-                pass: run.pass,
-                drawn: run.drawn,
-                times: run.times,
-                verdict: run.verdict.clone(),
-            })),
+            Ok(run) => RunResult::Maps(Box::new(MapsReport::new(run))),
             Err(none) => RunResult::NoMap {
                 no_map: none.to_string(),
                 missing: match none {
@@ -129,7 +163,7 @@ impl RunReport {
     #[must_use]
     pub fn missing(&self) -> usize {
         match &self.result {
-            RunResult::Map(map) => map.verdict.counts.missing,
+            RunResult::Maps(maps) => maps.verdict.counts.missing,
             RunResult::NoMap { missing, .. } => *missing,
         }
     }

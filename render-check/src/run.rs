@@ -1,22 +1,22 @@
 //! One run: one light, fitted in one way, drawn on the card and held against the truth.
 
-use std::ops::Range;
 use std::time::Duration;
 
 use anyhow::{Context, Result};
 use serde::Serialize;
-use shadowfit::{DepthFormat, Focus, Form, Light, Map, Origin, Settings, fit};
+use shadowfit::glam::DVec3;
+use shadowfit::{DepthFormat, Map, Origin, Settings, fit};
 
 use crate::args::ClipArg;
-use crate::fitting::{NoMap, map_or_reason, median_time};
-use crate::gpu::{Bias, Filter, MapPass, ShadowMap, Shadows, shadow_test};
-use crate::scene::Mesh;
+use crate::fitted_maps::{Drawn, FittedMaps};
+use crate::fitting::{NoMap, median_time};
+use crate::gpu::{Bias, Filter, MapPass, ShadowMaps, Shadows, shadow_test};
 use crate::stage::{Stage, StageLight};
 use crate::technique::Technique;
 use crate::trace::Faces;
-use crate::verdict::{self, Rendered, Verdict};
+use crate::verdict::{self, DrawnMap, Projection, Rendered, Verdict};
 
-/// How a light's map is fitted, drawn and read.
+/// How a light's maps are fitted, drawn and read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// How its texels are spread.
@@ -53,16 +53,27 @@ impl Options {
         }
     }
 
-    fn pass(&self, map: &Map) -> MapPass {
+    /// How a map is drawn.
+    #[must_use]
+    pub fn pass(&self, map: &Map) -> MapPass {
         let bias = self.bias.unwrap_or_else(|| enough_bias(self.format, self.filter, map.depth().rounding));
         MapPass { format: self.format, faces: self.faces, bias }
     }
 
-    /// A border as wide as the filter reaches.
-    fn settings(&self, image_height: u32) -> Result<Settings> {
+    /// As many texels around what is visible as the filter reaches.
+    #[must_use]
+    pub fn border(&self) -> u32 {
+        self.filter.reach().ceil() as u32
+    }
+
+    /// How a map is fitted.
+    ///
+    /// # Errors
+    ///
+    /// When the sizes cannot be used, or the border leaves no room.
+    pub fn settings(&self, image_height: u32) -> Result<Settings> {
         let settings = Settings::new(self.map_size, image_height).context("the sizes cannot be used")?;
-        let border = self.filter.reach().ceil() as u32;
-        let settings = settings.with_border(border).context("the filter is too wide for so small a map")?;
+        let settings = settings.with_border(self.border()).context("the filter is too wide for so small a map")?;
         Ok(self.technique.settings(settings).with_clip(self.clip.into()).with_origin(Origin::Eye))
     }
 }
@@ -80,71 +91,12 @@ pub fn enough_bias(format: DepthFormat, filter: Filter, rounding: f64) -> Bias {
     Bias { constant, slope: 2.0 * filter.reach() as f32 + 0.125 }
 }
 
-/// What culling against H left to draw.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Drawn {
-    /// Objects drawn.
-    pub objects: usize,
-    /// Objects there are.
-    pub of_objects: usize,
-    /// Triangles drawn.
-    pub triangles: usize,
-    /// Triangles there are.
-    pub of_triangles: usize,
-}
-
-/// A map, and the casters that belong in it.
-pub struct FittedMap {
-    map: Map,
-    pass: MapPass,
-    /// The triangles of the objects that meet H.
-    casters: Vec<Range<u32>>,
-}
-
-impl FittedMap {
-    /// Fits a map as a renderer does and culls the casters against H; or says why there is no map.
-    ///
-    /// # Errors
-    ///
-    /// When the settings cannot be used.
-    pub fn new(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
-        let focus = Focus::new(&stage.view, light, &stage.bounds);
-        let map = match map_or_reason(focus.fit(&options.settings(stage.size[1])?)) {
-            Ok(map) => map,
-            Err(none) => return Ok(Err(none)),
-        };
-        let body = focus.body(Form::Tight);
-        let objects = &stage.tracer.mesh().objects;
-        let meets = objects.iter().filter(|object| body.meets_box(object.min, object.max));
-        let casters = meets.map(|object| object.triangles.clone()).collect();
-        Ok(Ok(Self { map, pass: options.pass(&map), casters }))
-    }
-
-    /// Draws the casters.
-    ///
-    /// # Errors
-    ///
-    /// When the card refuses.
-    pub fn draw(&self, stage: &Stage<'_>) -> Result<ShadowMap> {
-        ShadowMap::draw(stage.gpu, &stage.geometry, &self.casters, &self.map, &self.pass)
-    }
-
-    fn drawn(&self, mesh: &Mesh) -> Drawn {
-        Drawn {
-            objects: self.casters.len(),
-            of_objects: mesh.objects.len(),
-            triangles: self.casters.iter().map(Range::len).sum(),
-            of_triangles: mesh.triangles.len(),
-        }
-    }
-}
-
 /// Median times.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Times {
-    /// Of the fit, on the processor, in microseconds.
+    /// Of the fits of all maps, on the processor, in microseconds.
     pub fit_us: f64,
-    /// Of the shadow map's pass, by the card's clock, in milliseconds; nothing where it has none.
+    /// Of the shadow maps' passes, by the card's clock, in milliseconds; nothing where it has none.
     pub shadow_map_ms: Option<f64>,
     /// Of the camera's pass.
     pub camera_ms: Option<f64>,
@@ -152,22 +104,29 @@ pub struct Times {
     pub shadow_test_ms: Option<f64>,
 }
 
-/// What came of a run with a map.
+/// What came of a run with maps.
 pub struct MapRun {
-    /// The map.
-    pub map: Map,
-    /// Its depths as stored, row by row from the top.
-    pub depths: Vec<f32>,
+    /// The maps, and which answers for which points.
+    pub fitted: FittedMaps,
+    /// The depths of each map that is drawn, as stored, row by row from the top.
+    pub depths: Vec<Vec<f32>>,
     /// The share of light that reaches each pixel.
     pub lit: Vec<f32>,
     /// What was drawn.
     pub drawn: Drawn,
-    /// What the bias was.
-    pub pass: MapPass,
     /// How long it took.
     pub times: Times,
     /// How it compares with the truth.
     pub verdict: Verdict,
+}
+
+impl MapRun {
+    /// How much larger a texel is than a pixel at a point, in the map that answers for it; `None` where none does.
+    #[must_use]
+    pub fn aliasing(&self, point: DVec3) -> Option<f64> {
+        let fitted = self.fitted.maps[self.fitted.split.part_of(point)].as_ref()?;
+        Some(fitted.map.aliasing(point).unwrap_or(f64::INFINITY))
+    }
 }
 
 /// Runs one light through one technique; or says why there is no map.
@@ -176,37 +135,34 @@ pub struct MapRun {
 ///
 /// When the settings cannot be used or the card refuses.
 pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<Result<MapRun, NoMap>> {
-    let fitted = match FittedMap::new(stage, &light.light, options)? {
+    let fitted = match FittedMaps::new(stage, &light.light, options)? {
         Ok(fitted) => fitted,
         Err(none) => return Ok(Err(none)),
     };
-    let FittedMap { map, pass, .. } = fitted;
-    let frame = || -> Result<(ShadowMap, Shadows)> {
-        let shadow_map = fitted.draw(stage)?;
-        let shadows = shadow_test(stage.gpu, &stage.surfaces, &shadow_map, options.filter)?;
-        Ok((shadow_map, shadows))
+    let frame = || -> Result<(ShadowMaps, Shadows)> {
+        let shadow_maps = fitted.draw(stage)?;
+        let shadows = shadow_test(stage.gpu, &stage.surfaces, &shadow_maps, options.filter)?;
+        Ok((shadow_maps, shadows))
     };
-    let (shadow_map, Shadows { lit, time }) = frame()?;
-    let (mut shadow_map_times, mut shadow_test_times) = (vec![shadow_map.time], vec![time]);
+    let (shadow_maps, Shadows { lit, time }) = frame()?;
+    let (mut shadow_map_times, mut shadow_test_times) = (vec![shadow_maps.time], vec![time]);
     for _ in 1..options.frames {
-        let (shadow_map, shadows) = frame()?;
-        shadow_map_times.push(shadow_map.time);
+        let (shadow_maps, shadows) = frame()?;
+        shadow_map_times.push(shadow_maps.time);
         shadow_test_times.push(shadows.time);
     }
-    let depths = shadow_map.depths(stage.gpu)?;
-    // A fit takes a few hundred times less than a frame.
-    let fits = 300 * options.frames as usize - 299;
-    let fit_time = median_time(fits, || fit(&stage.view, &light.light, &stage.bounds, map.settings()));
-    let rendered = Rendered {
-        map: &map,
-        lit: &lit,
-        depths: &depths,
-        faces: pass.faces,
-        bias: verdict::Bias::most(&pass),
-        depth_step: pass.format.step(1.0),
-        reach: options.filter.reach(),
+    let depths = shadow_maps.depths(stage.gpu)?;
+    let verdict = judged(stage, light, options, &fitted, &depths, &lit)?;
+    let settings = options.settings(stage.size[1])?;
+    let fit_all = || {
+        fitted
+            .lights
+            .iter()
+            .filter(|light| fit(&stage.view, light, &stage.bounds, &settings).map().is_some())
+            .count()
     };
-    let verdict = verdict::judge(&light.truth, &rendered, stage.tracer)?;
+    // A fit takes a few hundred times less than a frame.
+    let fit_time = median_time(300 * options.frames as usize - 299, fit_all);
     let times = Times {
         fit_us: fit_time.as_secs_f64() * 1e6,
         shadow_map_ms: median_ms(shadow_map_times),
@@ -214,7 +170,43 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
         shadow_test_ms: median_ms(shadow_test_times),
     };
     let drawn = fitted.drawn(stage.tracer.mesh());
-    Ok(Ok(MapRun { map, depths, lit, drawn, pass, times, verdict }))
+    Ok(Ok(MapRun { fitted, depths, lit, drawn, times, verdict }))
+}
+
+/// Holds what was drawn against the truth.
+fn judged(
+    stage: &Stage<'_>,
+    light: &StageLight,
+    options: &Options,
+    fitted: &FittedMaps,
+    depths: &[Vec<f32>],
+    lit: &[f32],
+) -> Result<Verdict> {
+    let projections: Vec<Option<Box<dyn Projection>>> =
+        fitted.maps.iter().map(|map| map.as_ref().map(|map| map.projection(stage.view.eye()))).collect();
+    let mut depths = depths.iter();
+    let maps: Vec<Option<DrawnMap<'_>>> = fitted
+        .maps
+        .iter()
+        .zip(&projections)
+        .map(|(map, projection)| {
+            Some(DrawnMap {
+                projection: projection.as_deref()?,
+                depths: depths.next()?,
+                is_reversed: map.as_ref()?.map.settings().clip().depth.is_reversed(),
+                bias: verdict::Bias::most(&map.as_ref()?.pass),
+            })
+        })
+        .collect();
+    let rendered = Rendered {
+        split: &fitted.split,
+        maps: &maps,
+        lit,
+        faces: options.faces,
+        depth_step: options.format.step(1.0),
+        reach: options.filter.reach(),
+    };
+    verdict::judge(&light.truth, &rendered, stage.tracer)
 }
 
 /// Nothing where the card has no clock.

@@ -17,18 +17,31 @@ pub enum Technique {
     PsmTight,
     /// The same, with its camera where the view's is
     PsmUnshifted,
+    /// Without a warp, a map for each face of the cube around a lamp
+    Cube,
+    /// The perspective shadow map of each face of the cube around a lamp
+    CubePsm,
 }
 
 impl Technique {
     /// Those that are compared where nobody chooses.
     pub const COMPARED: [Self; 3] = [Self::Uniform, Self::Psm, Self::PsmUnshifted];
 
+    /// Those for lamps among what they light.
+    pub const CUBES: [Self; 2] = [Self::Cube, Self::CubePsm];
+
+    /// Whether each face of the cube around a lamp has a map of its own.
+    #[must_use]
+    pub fn has_faces(self) -> bool {
+        matches!(self, Self::Cube | Self::CubePsm)
+    }
+
     /// The settings with this technique's warp and shift.
     #[must_use]
     pub fn settings(self, settings: Settings) -> Settings {
         let (warp, shift) = match self {
-            Self::Uniform => (Warp::Uniform, Shift::None),
-            Self::Psm => (Warp::Perspective, Shift::Back(Form::Paper)),
+            Self::Uniform | Self::Cube => (Warp::Uniform, Shift::None),
+            Self::Psm | Self::CubePsm => (Warp::Perspective, Shift::Back(Form::Paper)),
             Self::PsmTight => (Warp::Perspective, Shift::Back(Form::Tight)),
             Self::PsmUnshifted => (Warp::Perspective, Shift::None),
         };

@@ -7,13 +7,14 @@ use shadowfit::View;
 use shadowfit::glam::DQuat;
 
 use crate::args::WalkArgs;
+use crate::fitted_maps::FittedMaps;
 use crate::framing::Camera;
 use crate::gpu::{Gpu, Surfaces, shadow_test};
 use crate::opening::{choose_lights, open, output_directory, place_camera, say, sort};
 use crate::picture::Lens;
 use crate::progress::bar;
 use crate::report;
-use crate::run::{FittedMap, Options};
+use crate::run::Options;
 use crate::stage::{Stage, StageLight};
 use crate::table::{self, percent};
 use crate::technique::Technique;
@@ -162,10 +163,10 @@ fn compare(
     light: &StageLight,
     options: &Options,
 ) -> Result<Option<Step>> {
-    let maps = (FittedMap::new(here, &light.light, options)?, FittedMap::new(next, &light.light, options)?);
-    let (Ok(this_map), Ok(next_map)) = maps else { return Ok(None) };
-    let before = shadow_test(here.gpu, &here.surfaces, &this_map.draw(here)?, options.filter)?.lit;
-    let after = shadow_test(here.gpu, again, &next_map.draw(next)?, options.filter)?.lit;
+    let maps = (FittedMaps::new(here, &light.light, options)?, FittedMaps::new(next, &light.light, options)?);
+    let (Ok(these_maps), Ok(next_maps)) = maps else { return Ok(None) };
+    let before = shadow_test(here.gpu, &here.surfaces, &these_maps.draw(here)?, options.filter)?.lit;
+    let after = shadow_test(here.gpu, again, &next_maps.draw(next)?, options.filter)?.lit;
     let planes = next.view.planes();
     let mut step = Step::default();
     for (i, pixel) in light.truth.pixels().iter().enumerate() {

@@ -86,7 +86,7 @@ fn maps_are_as_the_command_line_asks() {
     assert_eq!(sizes, [32, 16], "--size adds up");
     let run = &report["runs"][0];
     assert_eq!((&run["filter"], &run["clip"]), (&"pcf3".into(), &"opengl-reversed".into()));
-    assert_eq!(run["pass"]["format"], "float32");
+    assert_eq!(run["maps"][0]["pass"]["format"], "float32");
 }
 
 #[test]

@@ -11,15 +11,16 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use render_check::gpu::{Bias, Filter, Gpu, MapPass, ShadowMap, shadow_test};
+use render_check::gpu::{Bias, Filter, Gpu, MapDraw, MapPass, ShadowMaps, shadow_test};
 use render_check::light::LightSpec;
 use render_check::run::{MapRun, Options, run};
 use render_check::scene::{self, LoadedScene};
+use render_check::split::Split;
 use render_check::stage::{Stage, StageLight};
 use render_check::sweep::{GROUPS, Summary, SweepRun, run_shots};
 use render_check::technique::Technique;
 use render_check::trace::{Faces, Tracer};
-use render_check::verdict::{self, Counts, Rendered, Verdict, judge};
+use render_check::verdict::{self, Counts, DrawnMap, Frustum, Rendered, Verdict, judge};
 use shadowfit::{DepthFormat, Map, Origin, Settings, View, fit};
 
 fn gpu() -> Gpu {
@@ -80,11 +81,49 @@ fn casters_behind_the_eye_cast_into_the_picture() {
     assert!(!runs.is_empty());
 }
 
+/// One map serves some lamps in the room, the faces of a cube all of them.
+///
+/// A lamp that hangs in view has R reach to its near distance, a thousandth of the scene off, where depths are noisy in
+/// f32. The one constant of the bias covers that noise, and far from the lamp it lets light through: hence the second
+/// bound.
 #[test]
-fn lights_inside_the_scene_have_a_map_or_a_reason() {
-    let runs = sweep("lights-inside", 0.01);
-    let (maps, none): (Vec<_>, Vec<_>) = runs.iter().partition(|run| verdict(run).is_some());
-    assert!(!maps.is_empty() && !none.is_empty(), "{} maps, {} without", maps.len(), none.len());
+fn lights_inside_the_scene_have_a_map_a_cube_or_a_reason() {
+    let runs = sweep("lights-inside", 0.068);
+    let mut without = 0;
+    for run in &runs {
+        match (verdict(run), run.run.technique.has_faces()) {
+            (Some(verdict), has_faces) => {
+                let out_of_view = run.case.starts_with("room");
+                let most = if !has_faces {
+                    0.012
+                } else if out_of_view {
+                    0.0012
+                } else {
+                    0.068
+                };
+                let counts = verdict.counts;
+                assert!(counts.fraction(counts.faults()) <= most, "{run}: {counts:?}");
+            }
+            (None, has_faces) => {
+                assert!(!has_faces, "{run}");
+                without += 1;
+            }
+        }
+    }
+    assert!(without > 0, "a lamp in view is not served by one map");
+    let most_passes = runs.iter().map(passes).max();
+    assert_eq!(most_passes, Some(6), "a lamp in view needs all of its faces");
+    assert!(
+        runs.iter().any(|run| run.run.technique.has_faces() && passes(run) == 3),
+        "one behind the view does not"
+    );
+}
+
+fn passes(run: &SweepRun) -> usize {
+    match &run.run.result {
+        render_check::report::RunResult::Maps(maps) => maps.passes,
+        render_check::report::RunResult::NoMap { .. } => 0,
+    }
 }
 
 #[test]
@@ -174,14 +213,14 @@ fn leaves_are_edges_and_little_else() {
 
 fn verdict(run: &SweepRun) -> Option<&Verdict> {
     match &run.run.result {
-        render_check::report::RunResult::Map(map) => Some(&map.verdict),
+        render_check::report::RunResult::Maps(maps) => Some(&maps.verdict),
         render_check::report::RunResult::NoMap { .. } => None,
     }
 }
 
 fn faces(run: &SweepRun) -> Faces {
     match &run.run.result {
-        render_check::report::RunResult::Map(map) => map.pass.faces,
+        render_check::report::RunResult::Maps(maps) => maps.maps[0].pass.faces,
         render_check::report::RunResult::NoMap { .. } => Faces::All,
     }
 }
@@ -224,15 +263,19 @@ fn along_the_light_a_warp_is_no_warp() {
 fn judged(stage: &Stage<'_>, light: &StageLight, map: &Map, casters: &[std::ops::Range<u32>]) -> Verdict {
     let bias = Bias { constant: 9, slope: 1.125 };
     let pass = MapPass { format: DepthFormat::Unorm24, faces: Faces::All, bias };
-    let shadow_map = ShadowMap::draw(stage.gpu, &stage.geometry, casters, map, &pass).expect("drawn");
-    let lit = shadow_test(stage.gpu, &stage.surfaces, &shadow_map, Filter::Nearest).expect("tested").lit;
-    let depths = shadow_map.depths(stage.gpu).expect("readable");
+    let split = Split::whole();
+    let draw = MapDraw { map, casters, pass };
+    let shadow_maps = ShadowMaps::draw(stage.gpu, &stage.geometry, &split, &[Some(draw)]).expect("drawn");
+    let lit = shadow_test(stage.gpu, &stage.surfaces, &shadow_maps, Filter::Nearest).expect("tested").lit;
+    let depths = shadow_maps.depths(stage.gpu).expect("readable");
+    let frustum = Frustum::new(map, stage.view.eye());
+    let bias = verdict::Bias::most(&pass);
+    let drawn = DrawnMap { projection: &frustum, depths: &depths[0], is_reversed: false, bias };
     let rendered = Rendered {
-        map,
+        split: &split,
+        maps: &[Some(drawn)],
         lit: &lit,
-        depths: &depths,
         faces: pass.faces,
-        bias: verdict::Bias::most(&pass),
         depth_step: pass.format.step(1.0),
         reach: Filter::Nearest.reach(),
     };

@@ -49,8 +49,8 @@ pub(crate) struct Polyhedron {
 }
 
 impl Polyhedron {
-    /// The slots. A box, a light's six planes and a hull's ten have at most `2 · 22 − 4 = 40` vertices, and the last
-    /// cut at most 21 new ones beside the 38 before it.
+    /// The slots. A box, a light's seven planes and a hull's ten have at most `2 · 23 − 4 = 42` vertices, and the last
+    /// cut at most 22 new ones beside the 40 before it.
     pub(crate) const MAX_VERTICES: usize = 64;
     /// The planes that may be named.
     pub(crate) const MAX_PLANES: usize = 64;

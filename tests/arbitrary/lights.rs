@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use proptest::prelude::*;
-use shadowfit::{InputError, Light, View};
+use shadowfit::{CubeFace, InputError, Light, View};
 
 use super::Similarity;
 use super::primitive::{almost_zero, direction, lattice_direction, magnitude, nudged};
@@ -10,10 +10,36 @@ use super::primitive::{almost_zero, direction, lattice_direction, magnitude, nud
 /// The arguments of one of the constructors of a [`Light`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum LightParams {
-    Directional { direction_to_light: [f64; 3] },
-    Point { position: [f64; 3], near: f64, range: Option<f64> },
-    Spot { position: [f64; 3], axis: [f64; 3], half_angle: f64, near: f64, range: Option<f64> },
-    Hemisphere { position: [f64; 3], axis: [f64; 3], near: f64, range: Option<f64> },
+    Directional {
+        direction_to_light: [f64; 3],
+    },
+    Point {
+        position: [f64; 3],
+        near: f64,
+        range: Option<f64>,
+    },
+    Spot {
+        position: [f64; 3],
+        axis: [f64; 3],
+        half_angle: f64,
+        near: f64,
+        range: Option<f64>,
+    },
+    Hemisphere {
+        position: [f64; 3],
+        axis: [f64; 3],
+        near: f64,
+        range: Option<f64>,
+    },
+    /// The face with an index, of a point light or, with an axis, of a hemisphere.
+    CubeFace {
+        position: [f64; 3],
+        axis: Option<[f64; 3]>,
+        near: f64,
+        range: Option<f64>,
+        face: usize,
+        overlap: f64,
+    },
 }
 
 impl LightParams {
@@ -28,6 +54,11 @@ impl LightParams {
             Self::Hemisphere { position, axis, near, range } => {
                 Light::hemisphere(position, axis, near, or_infinity(range))
             }
+            Self::CubeFace { position, axis, near, range, face, overlap } => match axis {
+                None => Light::point(position, near, or_infinity(range)),
+                Some(axis) => Light::hemisphere(position, axis, near, or_infinity(range)),
+            }
+            .and_then(|light| light.cube_face(CubeFace::ALL[face], overlap)),
         }
     }
 
@@ -48,6 +79,14 @@ impl LightParams {
             Self::Hemisphere { position, axis, near, range } => {
                 Self::Hemisphere { position: by.point(position), axis, near: by.length(near), range: length(range) }
             }
+            Self::CubeFace { position, axis, near, range, face, overlap } => Self::CubeFace {
+                position: by.point(position),
+                axis,
+                near: by.length(near),
+                range: length(range),
+                face,
+                overlap,
+            },
         }
     }
 }
@@ -103,6 +142,7 @@ enum Shape {
     Point,
     Spot { half_angle: f64 },
     Hemisphere,
+    CubeFace { face: usize, overlap: f64, of_hemisphere: bool },
 }
 
 impl Place {
@@ -140,6 +180,10 @@ impl Place {
             Shape::Point => LightParams::Point { position, near, range },
             Shape::Spot { half_angle } => LightParams::Spot { position, axis, half_angle, near, range },
             Shape::Hemisphere => LightParams::Hemisphere { position, axis, near, range },
+            Shape::CubeFace { face, overlap, of_hemisphere } => {
+                let axis = of_hemisphere.then_some(axis);
+                LightParams::CubeFace { position, axis, near, range, face, overlap }
+            }
         }
     }
 }
@@ -175,8 +219,13 @@ pub(crate) fn lattice_light() -> impl Strategy<Value = LightParams> {
         1 => (position.clone(), lattice_direction(), range.clone()).prop_map(|(position, axis, range)| {
             LightParams::Spot { position, axis, half_angle: std::f64::consts::FRAC_PI_4, near: 0.25, range }
         }),
-        1 => (position, lattice_direction(), range)
+        1 => (position.clone(), lattice_direction(), range.clone())
             .prop_map(|(position, axis, range)| LightParams::Hemisphere { position, axis, near: 0.25, range }),
+        1 => (position, prop::option::of(lattice_direction()), range, 0..6_usize).prop_map(
+            |(position, axis, range, face)| {
+                LightParams::CubeFace { position, axis, near: 0.25, range, face, overlap: 0.0 }
+            }
+        ),
     ]
 }
 
@@ -218,10 +267,13 @@ fn position() -> impl Strategy<Value = Position> {
 
 fn lamp() -> impl Strategy<Value = Lamp> {
     let half_angle = prop_oneof![3 => 0.1..1.2, 1 => magnitude(1e-3, 1.55), 1 => Just(1e-3), 1 => Just(1.55)];
+    let overlap = prop_oneof![Just(0.0), 0.0..0.1, Just(CubeFace::MAX_OVERLAP)];
     let shape = prop_oneof![
         3 => Just(Shape::Point),
         3 => half_angle.prop_map(|half_angle| Shape::Spot { half_angle }),
         1 => Just(Shape::Hemisphere),
+        2 => (0..6_usize, overlap, any::<bool>())
+            .prop_map(|(face, overlap, of_hemisphere)| Shape::CubeFace { face, overlap, of_hemisphere }),
     ];
     let axis = prop_oneof![
         2 => Just(None),

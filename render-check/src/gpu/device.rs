@@ -84,9 +84,17 @@ impl Gpu {
     }
 
     pub(super) fn uniforms(&self, matrices: &[Mat4]) -> wgpu::Buffer {
-        let numbers: Vec<f32> = matrices.iter().flat_map(Mat4::to_cols_array).collect();
+        self.numbers(matrices.iter().flat_map(Mat4::to_cols_array), wgpu::BufferUsages::UNIFORM)
+    }
+
+    /// A buffer for an array of any length in a shader.
+    pub(super) fn storage(&self, numbers: impl IntoIterator<Item = f32>) -> wgpu::Buffer {
+        self.numbers(numbers, wgpu::BufferUsages::STORAGE)
+    }
+
+    fn numbers(&self, numbers: impl IntoIterator<Item = f32>, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        let numbers: Vec<f32> = numbers.into_iter().collect();
         let contents = bytemuck::cast_slice(&numbers);
-        let usage = wgpu::BufferUsages::UNIFORM;
         self.device.create_buffer_init(&BufferInitDescriptor { label: None, contents, usage })
     }
 
@@ -96,27 +104,33 @@ impl Gpu {
     }
 
     /// A texture that passes can draw to and read from, with its view.
-    pub(super) fn target(
+    pub(super) fn target(&self, size: [u32; 2], format: wgpu::TextureFormat) -> (wgpu::Texture, wgpu::TextureView) {
+        let texture = self.layers(size, 1, format);
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        (texture, view)
+    }
+
+    /// The same with layers, and without views.
+    pub(super) fn layers(
         &self,
         [width, height]: [u32; 2],
+        count: u32,
         format: wgpu::TextureFormat,
-    ) -> (wgpu::Texture, wgpu::TextureView) {
+    ) -> wgpu::Texture {
         let mut usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
         if !format.is_depth_stencil_format() {
             usage |= wgpu::TextureUsages::COPY_SRC;
         }
-        let texture = self.device.create_texture(&wgpu::TextureDescriptor {
+        self.device.create_texture(&wgpu::TextureDescriptor {
             label: None,
-            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: count },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format,
             usage,
             view_formats: &[],
-        });
-        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        (texture, view)
+        })
     }
 
     pub(super) fn bindings(

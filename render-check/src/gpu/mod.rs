@@ -5,8 +5,8 @@
 //! |---|---|
 //! | [`Geometry`] | the triangles on the card, in f32, about an origin |
 //! | [`Surfaces`] | what a camera sees: the position and the triangle of every pixel |
-//! | [`ShadowMap`] | the depths of the casters, through a map's matrix |
-//! | [`shadow_test`] | how much light reaches every pixel, as the shadow map has it |
+//! | [`ShadowMaps`] | the depths of the casters, through the matrix of each of a light's maps |
+//! | [`shadow_test`] | how much light reaches every pixel, as the shadow maps have it |
 
 mod device;
 mod geometry;
@@ -19,7 +19,7 @@ mod surfaces;
 
 pub use device::Gpu;
 pub use geometry::Geometry;
-pub use shadow_map::{Bias, MapPass, ShadowMap, Steps};
+pub use shadow_map::{Bias, MapDraw, MapPass, ShadowMaps, Steps};
 pub use shadow_test::{Filter, Shadows, shadow_test};
 pub use surfaces::Surfaces;
 

@@ -22,6 +22,7 @@ macro_rules! shadow_test {
         concat!(
             include_str!("shaders/full_screen.wgsl"),
             include_str!("shaders/shadow_test.wgsl"),
+            include_str!("shaders/frustum.wgsl"),
             include_str!($lookup)
         )
     };

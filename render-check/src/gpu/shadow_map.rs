@@ -1,14 +1,15 @@
-//! The shadow map: casters, drawn through the matrix that the crate gives.
+//! The shadow maps of a light: casters, drawn through the matrices that the crate gives, a layer of a texture each.
 
 use std::ops::Range;
 use std::time::Duration;
 
-use anyhow::{Result, ensure};
-use shadowfit::glam::{Mat4, Vec3};
+use anyhow::{Context, Result, ensure};
+use shadowfit::glam::{Mat4, Vec3, Vec4};
 use shadowfit::{ClipSpace, DepthFormat, DepthRange, Map, YAxis};
 
 use super::pass::{Pass, PipelineKind, depth_state};
 use super::{Geometry, Gpu, read_back, shaders};
+use crate::split::Split;
 use crate::trace::Faces;
 
 /// What the rasteriser adds to depth, away from the light.
@@ -63,102 +64,147 @@ fn format_name<S: serde::Serializer>(format: &DepthFormat, serializer: S) -> Res
     serializer.serialize_str(&format!("{format:?}").to_lowercase())
 }
 
-/// A shadow map on the card.
-pub struct ShadowMap {
+/// A map to draw.
+#[derive(Clone, Copy, Debug)]
+pub struct MapDraw<'a> {
+    /// Its matrix takes positions relative to what its settings say; the geometry must have been uploaded relative to
+    /// the same.
+    pub map: &'a Map,
+    /// The ranges of the geometry's triangles that belong in it.
+    pub casters: &'a [Range<u32>],
+    /// How they are drawn.
+    pub pass: MapPass,
+}
+
+/// The shadow maps of a light on the card, the layers of one texture.
+pub struct ShadowMaps {
+    /// All layers.
     pub(super) view: wgpu::TextureView,
-    pub(super) map: Map,
-    /// How long the card took, where it has a clock.
+    /// One by one.
+    layers: Vec<wgpu::TextureView>,
+    /// The map in each layer.
+    pub(super) maps: Vec<Map>,
+    /// The axis of each part of the light and, in w, its layer; −1 for a part without a map.
+    pub(super) parts: Vec<Vec4>,
+    /// The light's position, relative to the geometry's origin.
+    pub(super) light: Vec3,
+    /// How long the card took for all of them, where it has a clock.
     pub time: Option<Duration>,
 }
 
-impl ShadowMap {
-    /// Draws ranges of the geometry's triangles into a map.
-    ///
-    /// The map's matrix takes positions relative to what its settings say; the geometry must have been uploaded
-    /// relative to the same.
+impl ShadowMaps {
+    /// Draws the map of each part of a split; `None` for a part that needs none.
     ///
     /// # Errors
     ///
-    /// When the card refuses, as it does maps larger than it can hold.
-    pub fn draw(
-        gpu: &Gpu,
-        geometry: &Geometry,
-        casters: &[Range<u32>],
-        map: &Map,
-        options: &MapPass,
-    ) -> Result<Self> {
-        let (size, largest) = (map.settings().map_size(), gpu.largest_texture());
+    /// When there is nothing to draw, when the maps are not alike in size, format and clip space, as layers of a texture
+    /// are, or when the card refuses, as it does maps larger than it can hold.
+    pub fn draw(gpu: &Gpu, geometry: &Geometry, split: &Split, maps: &[Option<MapDraw<'_>>]) -> Result<Self> {
+        ensure!(split.parts() == maps.len(), "a light in {} parts has {} maps", split.parts(), maps.len());
+        let drawn: Vec<&MapDraw<'_>> = maps.iter().flatten().collect();
+        let first = drawn.first().context("none of the parts of the light needs a map")?;
+        let of =
+            |draw: &MapDraw<'_>| (draw.map.settings().map_size(), draw.pass.format, draw.map.settings().clip());
+        ensure!(drawn.iter().all(|draw| of(draw) == of(first)), "the maps of a light differ in size or format");
+        let (size, largest) = (first.map.settings().map_size(), gpu.largest_texture());
         ensure!(size <= largest, "{} holds maps of {largest} texels a side, not of {size}", gpu.name());
-        gpu.guarded("the shadow map", || Self::draw_unguarded(gpu, geometry, casters, map, options))
+        gpu.guarded("the shadow map", || {
+            let format = match first.pass.format {
+                DepthFormat::Unorm16 => wgpu::TextureFormat::Depth16Unorm,
+                DepthFormat::Unorm24 => wgpu::TextureFormat::Depth24Plus,
+                DepthFormat::Float32 => wgpu::TextureFormat::Depth32Float,
+            };
+            let texture = gpu.layers([size, size], drawn.len() as u32, format);
+            let view = |dimension, base_array_layer, array_layer_count| {
+                texture.create_view(&wgpu::TextureViewDescriptor {
+                    dimension: Some(dimension),
+                    base_array_layer,
+                    array_layer_count: Some(array_layer_count),
+                    ..Default::default()
+                })
+            };
+            let layers: Vec<_> =
+                (0..drawn.len() as u32).map(|layer| view(wgpu::TextureViewDimension::D2, layer, 1)).collect();
+            let mut time = Some(Duration::ZERO);
+            for (draw, layer) in drawn.iter().zip(&layers) {
+                let took = draw_layer(gpu, geometry, draw, layer, format)?;
+                time = time.zip(took).map(|(sum, took)| sum + took);
+            }
+            let mut layer = -1.0;
+            let parts = split.axes().iter().zip(maps).map(|(axis, map)| {
+                layer += f32::from(u8::from(map.is_some()));
+                axis.as_vec3().extend(if map.is_some() { layer } else { -1.0 })
+            });
+            Ok(Self {
+                view: view(wgpu::TextureViewDimension::D2Array, 0, drawn.len() as u32),
+                parts: parts.collect(),
+                layers,
+                maps: drawn.iter().map(|draw| *draw.map).collect(),
+                light: (split.position() - geometry.origin()).as_vec3(),
+                time,
+            })
+        })
     }
 
-    fn draw_unguarded(
-        gpu: &Gpu,
-        geometry: &Geometry,
-        casters: &[Range<u32>],
-        map: &Map,
-        options: &MapPass,
-    ) -> Result<Self> {
-        let clip = map.settings().clip();
-        let reversed = clip.depth.is_reversed();
-        let format = match options.format {
-            DepthFormat::Unorm16 => wgpu::TextureFormat::Depth16Unorm,
-            DepthFormat::Unorm24 => wgpu::TextureFormat::Depth24Plus,
-            DepthFormat::Float32 => wgpu::TextureFormat::Depth32Float,
-        };
-        let (compare, sign) = match reversed {
-            true => (wgpu::CompareFunction::Greater, -1),
-            false => (wgpu::CompareFunction::Less, 1),
-        };
-        let bias = wgpu::DepthBiasState {
-            constant: sign * options.bias.constant,
-            slope_scale: sign as f32 * options.bias.slope,
-            clamp: 0.0,
-        };
-        let pipeline = PipelineKind {
-            shader: shaders::SHADOW_MAP,
-            constants: &[],
-            takes_geometry: true,
-            primitive: wgpu::PrimitiveState {
-                // The meshes' fronts are counter-clockwise, and the crate's maps mirror nothing.
-                front_face: wgpu::FrontFace::Ccw,
-                cull_mode: match options.faces {
-                    Faces::All => None,
-                    Faces::Front => Some(wgpu::Face::Back),
-                    Faces::Back => Some(wgpu::Face::Front),
-                },
-                ..Default::default()
-            },
-            depth: Some(depth_state(format, compare, bias)),
-            targets: &[],
-        }
-        .build(gpu);
-        let light = gpu.uniforms(&[map.matrix(), raster_from_clip(clip)]);
-        let size = map.settings().map_size();
-        let (_, view) = gpu.target([size, size], format);
-        let draws: Vec<Range<u32>> = casters.iter().map(Geometry::vertices_of).collect();
-        let pass = Pass {
-            pipeline: &pipeline,
-            bindings: &gpu.bindings(&pipeline, &[light.as_entire_binding()]),
-            colours: &[],
-            depth: Some((&view, if reversed { 0.0 } else { 1.0 })),
-            geometry: Some(geometry),
-            draws: &draws,
-        };
-        let time = pass.run(gpu)?;
-        Ok(Self { view, map: *map, time })
-    }
-
-    /// The depths as they are stored, row by row from the top of the map (y = 1 in wgpu's clip space).
+    /// The depths of each layer as they are stored, row by row from the top of the map (y = 1 in wgpu's clip space).
     ///
     /// # Errors
     ///
     /// When the card refuses.
-    pub fn depths(&self, gpu: &Gpu) -> Result<Vec<f32>> {
-        gpu.guarded("the shadow map's depths", || {
-            read_back::depths(gpu, &self.view, self.map.settings().map_size())
-        })
+    pub fn depths(&self, gpu: &Gpu) -> Result<Vec<Vec<f32>>> {
+        let depths = |(layer, map): (_, &Map)| read_back::depths(gpu, layer, map.settings().map_size());
+        gpu.guarded("the shadow map's depths", || self.layers.iter().zip(&self.maps).map(depths).collect())
     }
+}
+
+/// Draws a map into a layer; how long the card took.
+fn draw_layer(
+    gpu: &Gpu,
+    geometry: &Geometry,
+    draw: &MapDraw<'_>,
+    layer: &wgpu::TextureView,
+    format: wgpu::TextureFormat,
+) -> Result<Option<Duration>> {
+    let clip = draw.map.settings().clip();
+    let reversed = clip.depth.is_reversed();
+    let (compare, sign) = match reversed {
+        true => (wgpu::CompareFunction::Greater, -1),
+        false => (wgpu::CompareFunction::Less, 1),
+    };
+    let bias = wgpu::DepthBiasState {
+        constant: sign * draw.pass.bias.constant,
+        slope_scale: sign as f32 * draw.pass.bias.slope,
+        clamp: 0.0,
+    };
+    let pipeline = PipelineKind {
+        shader: shaders::SHADOW_MAP,
+        constants: &[],
+        takes_geometry: true,
+        primitive: wgpu::PrimitiveState {
+            // The meshes' fronts are counter-clockwise, and the crate's maps mirror nothing.
+            front_face: wgpu::FrontFace::Ccw,
+            cull_mode: match draw.pass.faces {
+                Faces::All => None,
+                Faces::Front => Some(wgpu::Face::Back),
+                Faces::Back => Some(wgpu::Face::Front),
+            },
+            ..Default::default()
+        },
+        depth: Some(depth_state(format, compare, bias)),
+        targets: &[],
+    }
+    .build(gpu);
+    let light = gpu.uniforms(&[draw.map.matrix(), raster_from_clip(clip)]);
+    let draws: Vec<Range<u32>> = draw.casters.iter().map(Geometry::vertices_of).collect();
+    let pass = Pass {
+        pipeline: &pipeline,
+        bindings: &gpu.bindings(&pipeline, &[light.as_entire_binding()]),
+        colours: &[],
+        depth: Some((layer, if reversed { 0.0 } else { 1.0 })),
+        geometry: Some(geometry),
+        draws: &draws,
+    };
+    pass.run(gpu)
 }
 
 /// What the driver of another API does with its clip space: OpenGL's brings depth from −1…1 to 0…1, and where y points

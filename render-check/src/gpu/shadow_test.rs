@@ -6,10 +6,10 @@ use std::time::Duration;
 
 use anyhow::Result;
 use shadowfit::glam::{Mat4, Vec3};
-use shadowfit::{ClipSpace, TextureOrigin, YAxis};
+use shadowfit::{ClipSpace, Map, TextureOrigin, YAxis};
 
 use super::pass::{FULL_SCREEN, Pass, PipelineKind};
-use super::{Gpu, ShadowMap, Surfaces, read_back, shaders};
+use super::{Gpu, ShadowMaps, Surfaces, read_back, shaders};
 
 /// How a shadow map is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -75,24 +75,24 @@ pub struct Shadows {
     pub time: Option<Duration>,
 }
 
-/// Tests every pixel of a camera's image against a shadow map. Both must have been drawn from the same geometry, or
+/// Tests every pixel of a camera's image against the shadow maps of a light. All must have been drawn from the same geometry, or
 /// from geometries with the same origin.
 ///
 /// # Errors
 ///
 /// When the card refuses.
-pub fn shadow_test(gpu: &Gpu, surfaces: &Surfaces, shadow_map: &ShadowMap, filter: Filter) -> Result<Shadows> {
-    gpu.guarded("the shadow test", || shadow_test_unguarded(gpu, surfaces, shadow_map, filter))
+pub fn shadow_test(gpu: &Gpu, surfaces: &Surfaces, shadow_maps: &ShadowMaps, filter: Filter) -> Result<Shadows> {
+    gpu.guarded("the shadow test", || shadow_test_unguarded(gpu, surfaces, shadow_maps, filter))
 }
 
 fn shadow_test_unguarded(
     gpu: &Gpu,
     surfaces: &Surfaces,
-    shadow_map: &ShadowMap,
+    shadow_maps: &ShadowMaps,
     filter: Filter,
 ) -> Result<Shadows> {
-    let clip = shadow_map.map.settings().clip();
-    let reversed = clip.depth.is_reversed();
+    // The layers of a texture are alike in this.
+    let reversed = shadow_maps.maps.iter().any(|map| map.settings().clip().depth.is_reversed());
     let (shader, taps) = match filter {
         Filter::Nearest => (shaders::NEAREST, None),
         Filter::Hardware => (shaders::HARDWARE, None),
@@ -115,7 +115,10 @@ fn shadow_test_unguarded(
     }
     .build(gpu);
 
-    let receiver = gpu.uniforms(&[shadow_map.map.texture_matrix(), sampled_from_texture(clip)]);
+    let split = [shadow_maps.light.extend(0.0)].into_iter().chain(shadow_maps.parts.iter().copied());
+    let split = gpu.storage(split.flat_map(|row| row.to_array()));
+    let matrices = |map: &Map| [map.texture_matrix(), sampled_from_texture(map.settings().clip())];
+    let layers = gpu.storage(shadow_maps.maps.iter().flat_map(matrices).flat_map(|matrix| matrix.to_cols_array()));
     let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
         mag_filter: wgpu::FilterMode::Linear,
         min_filter: wgpu::FilterMode::Linear,
@@ -126,9 +129,10 @@ fn shadow_test_unguarded(
         ..Default::default()
     });
     let mut resources = vec![
-        receiver.as_entire_binding(),
         wgpu::BindingResource::TextureView(&surfaces.positions),
-        wgpu::BindingResource::TextureView(&shadow_map.view),
+        wgpu::BindingResource::TextureView(&shadow_maps.view),
+        split.as_entire_binding(),
+        layers.as_entire_binding(),
     ];
     if filter == Filter::Hardware {
         resources.push(wgpu::BindingResource::Sampler(&sampler));

@@ -6,6 +6,7 @@ use shadowfit::{ClipSpace, DepthFormat, Light, Map, Origin, Scene, Settings, Vie
 use super::*;
 use crate::picture::{DepthMap, Lens};
 use crate::scene::{self, Mesh};
+use crate::split::Split;
 use crate::trace::{Faces, Tracer};
 
 const IMAGE: [u32; 2] = [160, 100];
@@ -31,12 +32,13 @@ fn stage(clip: ClipSpace) -> Stage {
     Stage { gpu: Gpu::new().expect("an adapter"), mesh, view, map }
 }
 
-fn draw_all(stage: &Stage, format: DepthFormat, bias: Bias) -> (Geometry, ShadowMap) {
+fn draw_all(stage: &Stage, format: DepthFormat, bias: Bias) -> (Geometry, ShadowMaps) {
     let geometry = Geometry::upload(&stage.gpu, &stage.mesh, stage.view.eye()).expect("it fits");
-    let options = MapPass { format, faces: Faces::All, bias };
+    let pass = MapPass { format, faces: Faces::All, bias };
     let all = 0..stage.mesh.triangles.len() as u32;
-    let shadow_map = ShadowMap::draw(&stage.gpu, &geometry, &[all], &stage.map, &options).expect("drawn");
-    (geometry, shadow_map)
+    let draw = MapDraw { map: &stage.map, casters: &[all], pass };
+    let shadow_maps = ShadowMaps::draw(&stage.gpu, &geometry, &Split::whole(), &[Some(draw)]).expect("drawn");
+    (geometry, shadow_maps)
 }
 
 #[test]
@@ -68,8 +70,8 @@ fn every_format_holds_the_depths_that_rays_find_in_every_convention() {
         let lens = Lens::new(stage.map.shadow_from_world_in(ClipSpace::WGPU)).expect("invertible");
         let cast = DepthMap::cast(&lens, MAP, &tracer).depths;
         for format in [DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32] {
-            let (_, shadow_map) = draw_all(&stage, format, Bias::NONE);
-            let drawn = shadow_map.depths(&stage.gpu).expect("readable");
+            let (_, shadow_maps) = draw_all(&stage, format, Bias::NONE);
+            let drawn = shadow_maps.depths(&stage.gpu).expect("readable").remove(0);
             let unreversed = drawn.iter().map(|&d| if clip.depth.is_reversed() { 1.0 - d } else { d });
             let close = unreversed.zip(&cast).filter(|(a, b)| (a - *b).abs() < 1e-3).count();
             assert!(close * 200 >= cast.len() * 199, "{close} of {} in {format:?}, {clip:?}", cast.len());
@@ -82,9 +84,9 @@ fn conventions_and_formats_make_no_difference_to_shadows() {
     let bias = Bias { constant: 4, slope: 2.0 };
     let reference = {
         let stage = stage(ClipSpace::WGPU);
-        let (geometry, shadow_map) = draw_all(&stage, DepthFormat::Float32, bias);
+        let (geometry, shadow_maps) = draw_all(&stage, DepthFormat::Float32, bias);
         let surfaces = Surfaces::draw(&stage.gpu, &geometry, &stage.view, IMAGE).expect("drawn");
-        shadow_test(&stage.gpu, &surfaces, &shadow_map, Filter::Nearest).expect("tested").lit
+        shadow_test(&stage.gpu, &surfaces, &shadow_maps, Filter::Nearest).expect("tested").lit
     };
     let shadowed = reference.iter().filter(|&&lit| lit < 0.5).count();
     assert!(shadowed * 20 > reference.len(), "{shadowed} of {} pixels in shadow", reference.len());
@@ -93,9 +95,9 @@ fn conventions_and_formats_make_no_difference_to_shadows() {
         for clip in [clip, clip.reversed()] {
             let stage = stage(clip);
             for format in [DepthFormat::Unorm16, DepthFormat::Float32] {
-                let (geometry, shadow_map) = draw_all(&stage, format, bias);
+                let (geometry, shadow_maps) = draw_all(&stage, format, bias);
                 let surfaces = Surfaces::draw(&stage.gpu, &geometry, &stage.view, IMAGE).expect("drawn");
-                let lit = shadow_test(&stage.gpu, &surfaces, &shadow_map, Filter::Nearest).expect("tested").lit;
+                let lit = shadow_test(&stage.gpu, &surfaces, &shadow_maps, Filter::Nearest).expect("tested").lit;
                 let different = lit.iter().zip(&reference).filter(|(a, b)| a != b).count();
                 assert!(different * 300 < lit.len(), "{different} pixels differ with {clip:?}, {format:?}");
             }
@@ -106,10 +108,10 @@ fn conventions_and_formats_make_no_difference_to_shadows() {
 #[test]
 fn a_wider_filter_blends_more() {
     let stage = stage(ClipSpace::WGPU);
-    let (geometry, shadow_map) = draw_all(&stage, DepthFormat::Float32, Bias { constant: 4, slope: 8.0 });
+    let (geometry, shadow_maps) = draw_all(&stage, DepthFormat::Float32, Bias { constant: 4, slope: 8.0 });
     let surfaces = Surfaces::draw(&stage.gpu, &geometry, &stage.view, IMAGE).expect("drawn");
     let blended = |filter| {
-        let lit = shadow_test(&stage.gpu, &surfaces, &shadow_map, filter).expect("tested").lit;
+        let lit = shadow_test(&stage.gpu, &surfaces, &shadow_maps, filter).expect("tested").lit;
         lit.iter().filter(|&&lit| lit > 0.0 && lit < 1.0).count()
     };
     let [nearest, hardware, three, five] =
@@ -118,6 +120,39 @@ fn a_wider_filter_blends_more() {
         nearest == 0 && 0 < hardware && hardware < three && three < five,
         "{nearest} {hardware} {three} {five}"
     );
+}
+
+#[test]
+fn each_part_of_a_light_has_its_layer() {
+    let stage = stage(ClipSpace::WGPU);
+    let (geometry, one) = draw_all(&stage, DepthFormat::Float32, Bias { constant: 4, slope: 2.0 });
+    let surfaces = Surfaces::draw(&stage.gpu, &geometry, &stage.view, IMAGE).expect("drawn");
+    let lit = |maps: &ShadowMaps| shadow_test(&stage.gpu, &surfaces, maps, Filter::Nearest).expect("tested").lit;
+    let one = lit(&one);
+
+    // The parts as if a lamp hung in the middle of the board; the maps are the sun's all the same.
+    let split = Split::cube(DVec3::new(0.0, 0.5, -4.0));
+    let (all, bias) = (0..stage.mesh.triangles.len() as u32, Bias { constant: 4, slope: 2.0 });
+    let all = [all];
+    let pass = MapPass { format: DepthFormat::Float32, faces: Faces::All, bias };
+    let (full, empty) =
+        (MapDraw { map: &stage.map, casters: &all, pass }, MapDraw { map: &stage.map, casters: &[], pass });
+    let draw = |maps: &[Option<MapDraw>]| ShadowMaps::draw(&stage.gpu, &geometry, &split, maps);
+    assert_eq!(lit(&draw(&[Some(full); 6]).expect("drawn")), one);
+    // A part without a map is lit, as is one whose map holds nothing; the layers of the others close up.
+    let some = lit(&draw(&[None, Some(full), None, Some(full), None, None]).expect("drawn"));
+    let others_empty = [empty, full, empty, full, empty, empty].map(Some);
+    assert_eq!(some, lit(&draw(&others_empty).expect("drawn")));
+    let changed = some.iter().zip(&one).filter(|(a, b)| a != b).count();
+    let dark = some.iter().filter(|&&lit| lit == 0.0).count();
+    assert!(changed > 100 && dark > 100, "{changed} changed, {dark} dark");
+
+    let refusal = |maps: &[Option<MapDraw>]| draw(maps).err().expect("refused").to_string();
+    assert!(refusal(&[Some(full)]).contains("6 parts"));
+    assert!(refusal(&[None; 6]).contains("none of the parts"));
+    let coarse = MapPass { format: DepthFormat::Unorm16, ..pass };
+    let mixed = [Some(full), Some(MapDraw { pass: coarse, ..full }), None, None, None, None];
+    assert!(refusal(&mixed).contains("differ"));
 }
 
 #[test]
@@ -134,8 +169,8 @@ fn a_step_of_bias_is_what_it_is_said_to_be() {
     let stage = stage(ClipSpace::WGPU);
     for format in [DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32] {
         let depths = |constant| {
-            let (_, shadow_map) = draw_all(&stage, format, Bias { constant, slope: 0.0 });
-            shadow_map.depths(&stage.gpu).expect("readable")
+            let (_, shadow_maps) = draw_all(&stage, format, Bias { constant, slope: 0.0 });
+            shadow_maps.depths(&stage.gpu).expect("readable").remove(0)
         };
         let steps = 500;
         let Steps { least, most } = Bias::steps(format);

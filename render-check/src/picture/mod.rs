@@ -16,7 +16,7 @@ pub use light_view::{light_lens, light_view};
 pub use lines::{Line, Pen, draw_lines};
 pub use map_view::{DepthMap, TitledMap, maps_view};
 pub use shade::Lighting;
-pub use verdict_view::{aliasing_map, difference, shaded, stored_map};
+pub use verdict_view::{aliasing_map, difference, shaded, side_by_side, stored_map};
 pub use view::camera_view;
 
 /// The focus body's edges.

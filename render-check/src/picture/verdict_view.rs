@@ -4,6 +4,7 @@
 
 use image::{Rgb, RgbImage};
 use shadowfit::Map;
+use shadowfit::glam::DVec3;
 
 use super::canvas::{Colour, encode, mix};
 use super::map_view::DepthMap;
@@ -73,12 +74,12 @@ fn colour_of(mark: Mark) -> Option<Colour> {
 }
 
 /// How much larger a texel is than a pixel: blue where it is smaller, pale where it is as large, yellow, red and at last
-/// pink where it is larger. Pixels that are not compared are dark.
+/// pink where it is larger. Pixels that are not compared, and those for which `aliasing` has no answer, are dark.
 #[must_use]
-pub fn aliasing_map(truth: &TruthImage, map: &Map) -> RgbImage {
-    let mut image = picture(truth.size(), |index, _| match truth.pixels()[index].compared() {
-        Some((surface, _)) => ramp(map.aliasing(surface.point).unwrap_or(f64::INFINITY)),
-        None => NOT_COMPARED,
+pub fn aliasing_map(truth: &TruthImage, aliasing: impl Fn(DVec3) -> Option<f64>) -> RgbImage {
+    let mut image = picture(truth.size(), |index, _| {
+        let compared = truth.pixels()[index].compared();
+        compared.and_then(|(surface, _)| aliasing(surface.point)).map_or(NOT_COMPARED, ramp)
     });
     let scale = ["1/8 ", "1/4 ", "1/2 ", "1 ", "2 ", "4 ", "8 ", "16 ", "32 ", "64"];
     let mut parts = vec![("texel / pixel: ", Rgb(TEXT.map(encode)))];
@@ -116,13 +117,28 @@ fn ramp(aliasing: f64) -> Colour {
 
 /// The map as it was rendered: near is light, far is dark, whatever its clip space.
 ///
-/// `depths` are those of [`crate::verdict::Rendered`]; texels beyond their end show as if nothing was drawn there.
+/// `depths` are those of [`crate::verdict::DrawnMap`]; texels beyond their end show as if nothing was drawn there.
 #[must_use]
 pub fn stored_map(map: &Map, depths: &[f32]) -> RgbImage {
     let (size, reversed) = (map.settings().map_size(), map.settings().clip().depth.is_reversed());
     let mut depths: Vec<f32> = depths.iter().map(|&d| if reversed { 1.0 - d } else { d }).collect();
     depths.resize(size as usize * size as usize, 1.0);
     DepthMap { size, depths }.to_image()
+}
+
+/// The maps of a light from left to right, with a line between.
+#[must_use]
+pub fn side_by_side(maps: &[RgbImage]) -> RgbImage {
+    const LINE: u32 = 2;
+    let width: u32 = maps.iter().map(|map| map.width() + LINE).sum();
+    let height = maps.iter().map(RgbImage::height).max().unwrap_or(0);
+    let mut image = RgbImage::from_pixel(width.saturating_sub(LINE), height, Rgb(TEXT.map(encode)));
+    let mut left = 0;
+    for map in maps {
+        image::imageops::replace(&mut image, map, left, 0);
+        left += i64::from(map.width() + LINE);
+    }
+    image
 }
 
 /// Asks for the colour of each pixel by its index, row by row from the top, and its height in the picture: 0 at the
@@ -137,7 +153,6 @@ fn picture([width, height]: [u32; 2], colour: impl Fn(usize, f32) -> Colour) -> 
 #[cfg(test)]
 mod tests {
     use shadowfit::ClipSpace;
-    use shadowfit::glam::DVec3;
 
     use super::*;
     use crate::trace::{Faces, Tracer};
@@ -190,7 +205,8 @@ mod tests {
 
         let mesh = fake::mesh();
         let truth = fake::truth(&SUN, &Tracer::new(&mesh).expect("it has triangles"));
-        let image = aliasing_map(&truth, &fake::fitted(&SUN, &fake::settings()));
+        let map = fake::fitted(&SUN, &fake::settings());
+        let image = aliasing_map(&truth, |point| map.aliasing(point));
         // But for the caption.
         for (index, pixel) in truth.pixels().iter().enumerate().take(pixels_above_caption()) {
             let is_bright = brightness(&image, index) > 250;

@@ -114,7 +114,8 @@ impl Stand {
     }
 }
 
-/// Lamps inside of the scene: out of view, in view, and on the way from one to the other.
+/// Lamps inside of the scene: out of view, in view, and on the way from one to the other; with one map and with those of
+/// a cube's faces, nearest texels and wide filters, which read across the seams.
 fn lights_inside() -> Result<Vec<Shot>> {
     let room = Stand::built_in("room")?;
     let own = Stand::built_in("room")?.own_lights("room")?;
@@ -128,7 +129,11 @@ fn lights_inside() -> Result<Vec<Shot>> {
             })
             .collect()
     })?;
-    Ok(vec![own, across])
+    let mut options = own.options.clone();
+    for filter in [Filter::Nearest, Filter::PercentageCloser(5)] {
+        options.extend(Technique::CUBES.map(|technique| Options { filter, ..Options::new(technique, MAP_SIZE) }));
+    }
+    Ok([own, across].map(|shot| shot.with_options(options.clone())).into())
 }
 
 /// A street with the near plane a step from the eye, where there is only air, and with it close before what is seen.

@@ -100,7 +100,7 @@ pub fn run_shots(gpu: &Gpu, group: &'static str, shots: &[Shot], done: impl Fn()
 pub struct Summary {
     /// The group.
     pub group: &'static str,
-    /// Runs with a map.
+    /// Runs with maps.
     pub maps: usize,
     /// Runs that need none.
     pub none: usize,
@@ -125,11 +125,11 @@ impl Summary {
         let mut summary = Self { group, ..Self::default() };
         for sweep_run in runs {
             summary.missing += sweep_run.run.missing();
-            let RunResult::Map(map) = &sweep_run.run.result else {
+            let RunResult::Maps(maps) = &sweep_run.run.result else {
                 summary.none += 1;
                 continue;
             };
-            let counts = &map.verdict.counts;
+            let counts = &maps.verdict.counts;
             summary.maps += 1;
             summary.compared += counts.compared;
             summary.faults += counts.faults();

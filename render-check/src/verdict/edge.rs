@@ -16,19 +16,19 @@
 
 use shadowfit::glam::DVec2;
 
-use super::Comparison;
 use super::surface::Surface;
+use super::{Comparison, Projection};
 
 /// How much farther out than the filter reads the truth is asked, in texels.
 const BEYOND: f64 = 0.5;
 
 impl Comparison<'_> {
     /// Whether the truth changes from `lit`, which it is at the receiver, within the texels that the filter reads.
-    pub(super) fn is_edge_in_texels(&self, receiver: &Surface, lit: bool) -> bool {
-        let Some(place) = self.texels.place(receiver.point).map(|place| place.truncate()) else {
+    pub(super) fn is_edge_in_texels(&self, projection: &dyn Projection, receiver: &Surface, lit: bool) -> bool {
+        let Some(place) = projection.place(receiver.point).map(|place| place.truncate()) else {
             return false;
         };
-        let changes_at = |place: DVec2| match self.texels.on_plane(receiver.point, receiver.normal, place) {
+        let changes_at = |place: DVec2| match projection.on_plane(receiver.point, receiver.normal, place) {
             Some(point) => self.truth.source().is_shadowed(self.tracer, point, receiver.normal) == lit,
             None => true,
         };

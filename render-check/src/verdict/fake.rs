@@ -7,10 +7,11 @@ use rayon::prelude::*;
 use shadowfit::glam::{DMat4, DVec3};
 use shadowfit::{Map, Scene, Settings, View, fit};
 
-use super::{Bias, Rendered, TruthImage, Verdict, judge};
+use super::{Bias, DrawnMap, Frustum, Rendered, TruthImage, Verdict, judge};
 use crate::light::LightSpec;
 use crate::picture::Lens;
 use crate::scene::{Mesh, MeshBuilder, Part};
+use crate::split::Split;
 use crate::trace::{Faces, Hit, Ray, Tracer};
 
 /// Pixels of the picture.
@@ -198,10 +199,30 @@ impl Fake {
         pixels.map(|surface| surface.map_or(0.0, |surface| share(surface.point, surface.triangle))).collect()
     }
 
+    /// Judges a map that was drawn and looked up like this.
+    pub(crate) fn judge(
+        &self,
+        map: &Map,
+        depths: &[f32],
+        lit: &[f32],
+        truth: &TruthImage,
+        tracer: &Tracer,
+    ) -> anyhow::Result<Verdict> {
+        let frustum = Frustum::new(map, view().eye());
+        let is_reversed = map.settings().clip().depth.is_reversed();
+        let drawn = DrawnMap { projection: &frustum, depths, is_reversed, bias: self.bias };
+        judge(truth, &self.hand_over(&Split::whole(), &[Some(drawn)], lit), tracer)
+    }
+
     /// What there is to judge.
-    pub(crate) fn hand_over<'a>(&self, map: &'a Map, depths: &'a [f32], lit: &'a [f32]) -> Rendered<'a> {
+    pub(crate) fn hand_over<'a>(
+        &self,
+        split: &'a Split,
+        maps: &'a [Option<DrawnMap<'a>>],
+        lit: &'a [f32],
+    ) -> Rendered<'a> {
         let reach = 0.5 * self.filter as f64;
-        Rendered { map, lit, depths, faces: self.faces, bias: self.bias, depth_step: 1e-7, reach }
+        Rendered { split, maps, lit, faces: self.faces, depth_step: 1e-7, reach }
     }
 
     /// Draws `casters` into a map, lights the usual mesh by it and compares.
@@ -215,7 +236,7 @@ impl Fake {
         let truth = truth(light, &tracer);
         let depths = self.draw(map, &Tracer::new(casters).expect("it has triangles"));
         let lit = self.light(map, &depths, &truth, mesh);
-        judge(&truth, &self.hand_over(map, &depths, &lit), &tracer).expect("sound inputs")
+        self.judge(map, &depths, &lit, &truth, &tracer).expect("sound inputs")
     }
 }
 

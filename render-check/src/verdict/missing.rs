@@ -23,31 +23,31 @@
 
 use shadowfit::glam::DVec2;
 
-use super::Comparison;
 use super::surface::Surface;
+use super::{Comparison, DrawnMap};
 use crate::scene::Mesh;
 
 /// How far off a texel's centre the other rays go, in texels, where the f32 matrix is exact.
 const OFF_CENTRE: f64 = 1.0 / 16.0;
 
-/// The rasteriser's grid, in texels.
+/// The rasteriser's grid, in projection.
 const SUBTEXEL: f64 = 1.0 / 256.0;
 
 impl Comparison<'_> {
-    /// Whether the map misses a caster in the texel that the point of a receiver falls in.
+    /// Whether a map misses a caster in the texel that the point of a receiver falls in.
     ///
     /// A point outside of the map counts as one before which nothing is stored.
-    pub(super) fn is_caster_missing(&self, receiver: &Surface) -> bool {
-        let Some(place) = self.texels.place(receiver.point).map(|place| place.truncate()) else {
+    pub(super) fn is_caster_missing(&self, map: &DrawnMap<'_>, receiver: &Surface) -> bool {
+        let Some(place) = map.projection.place(receiver.point).map(|place| place.truncate()) else {
             return false;
         };
-        let stored = self.texels.index(place).map_or(f64::INFINITY, |texel| self.rendered.depth(texel));
-        let (across, _) = self.texels.rounding(receiver.point);
+        let stored = map.projection.index(place).map_or(f64::INFINITY, |texel| map.depth(texel));
+        let (across, _) = map.projection.rounding(receiver.point);
         let (centre, off) = (place.floor() + 0.5, OFF_CENTRE + across);
         let (mut farthest_caster, mut nearest_receiver) = (f64::NEG_INFINITY, f64::INFINITY);
         let mut surface = None;
         for step in [DVec2::ZERO, DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y] {
-            let Some(depths) = self.caster_and_receiver(receiver, centre + off * step) else {
+            let Some(depths) = self.caster_and_receiver(map, receiver, centre + off * step) else {
                 return false;
             };
             if !touch(self.tracer.mesh(), *surface.get_or_insert(depths.triangle), depths.triangle) {
@@ -62,20 +62,20 @@ impl Comparison<'_> {
     /// At a place of the map, the farthest depth with which the caster there can have been stored, and the nearest that
     /// the receiver's tangent plane can have; `None` where no drawn face stands before that plane, or one that the light
     /// sees from its edge.
-    fn caster_and_receiver(&self, receiver: &Surface, place: DVec2) -> Option<Depths> {
-        let (texels, rendered) = (&self.texels, self.rendered);
-        let point = texels.on_plane(receiver.point, receiver.normal, place)?;
+    fn caster_and_receiver(&self, map: &DrawnMap<'_>, receiver: &Surface, place: DVec2) -> Option<Depths> {
+        let (projection, depth_step) = (map.projection, self.rendered.depth_step);
+        let point = projection.on_plane(receiver.point, receiver.normal, place)?;
         let ray = self.truth.source().ray_to(self.tracer, point)?;
-        let caster = self.tracer.first_hit_of(&ray, rendered.faces)?;
-        let slopes = texels.slopes(caster.point, caster.face_normal)?;
-        let bias = rendered.bias.constant + rendered.bias.slope * slopes.max_element();
-        let (_, caster_rounding) = texels.rounding(caster.point);
-        let (_, receiver_rounding) = texels.rounding(point);
-        let tolerance = SUBTEXEL * slopes.element_sum() + rendered.depth_step + caster_rounding;
+        let caster = self.tracer.first_hit_of(&ray, self.rendered.faces)?;
+        let slopes = projection.slopes(caster.point, caster.face_normal)?;
+        let bias = map.bias.constant + map.bias.slope * slopes.max_element();
+        let (_, caster_rounding) = projection.rounding(caster.point);
+        let (_, receiver_rounding) = projection.rounding(point);
+        let tolerance = SUBTEXEL * slopes.element_sum() + depth_step + caster_rounding;
         Some(Depths {
             triangle: caster.triangle,
-            caster: texels.place(caster.point)?.z + bias + tolerance,
-            receiver: texels.place(point)?.z - rendered.depth_step - receiver_rounding,
+            caster: projection.place(caster.point)?.z + bias + tolerance,
+            receiver: projection.place(point)?.z - depth_step - receiver_rounding,
         })
     }
 }

@@ -101,6 +101,43 @@ fn a_map_that_holds_nothing_misses_all_its_casters_without_any_bias() {
 }
 
 #[test]
+fn each_part_of_a_light_is_judged_by_its_own_map() {
+    // So low that the middle of the floor is below it and the rest to its sides.
+    let position = DVec3::new(0.4, 3.0, 0.7);
+    let lamp = LightSpec::Point { position, range: f64::INFINITY };
+    let (mesh, map) = (fake::mesh(), fake::fitted(&lamp, &uniform()));
+    let tracer = Tracer::new(&mesh).expect("it has triangles");
+    let (fake, truth) = (Fake::default(), fake::truth(&lamp, &tracer));
+    let depths = fake.draw(&map, &tracer);
+    let lit = fake.light(&map, &depths, &truth, &mesh);
+    let whole = fake.judge(&map, &depths, &lit, &truth, &tracer).expect("sound inputs");
+
+    let (frustum, split) = (Frustum::new(&map, fake::view().eye()), Split::cube(position));
+    let drawn = DrawnMap { projection: &frustum, depths: &depths, is_reversed: false, bias: fake.bias };
+    let verdict = |maps: &[Option<DrawnMap>], lit: &[f32]| {
+        judge(&truth, &fake.hand_over(&split, maps, lit), &tracer).expect("sound inputs")
+    };
+    assert_eq!(verdict(&[Some(drawn); 6], &lit), whole, "one map in place of six is that map");
+
+    // Without the maps of the sides all of them counts as lit.
+    let below = 3;
+    let part = |index: usize| truth.pixels()[index].surface().map(|surface| split.part_of(surface.point));
+    let lit: Vec<f32> = (0..lit.len()).map(|i| if part(i) == Some(below) { lit[i] } else { 1.0 }).collect();
+    let maps = [0, 1, 2, 3, 4, 5].map(|part| (part == below).then_some(drawn));
+    let verdict = verdict(&maps, &lit);
+    for (index, (&mark, &before)) in verdict.marks.iter().zip(&whole.marks).enumerate() {
+        let compared = truth.pixels()[index].compared();
+        let expected = match (part(index), compared) {
+            (Some(part), Some((_, true))) if part != below => Mark::Right,
+            (Some(part), Some((_, false))) if part != below => Mark::Missing,
+            _ => before,
+        };
+        assert_eq!(mark, expected, "pixel {index}");
+    }
+    assert!(verdict.counts.missing > 100 && whole.counts.missing == 0, "{:?}", verdict.counts);
+}
+
+#[test]
 fn too_small_a_bias_is_false_shadow() {
     for (light, settings) in [(SUN, uniform()), (LAMP, fake::settings())] {
         let acne = Fake { look_up_bias: 0.0, look_up_slope: 0.0, ..Fake::default() };
@@ -135,7 +172,7 @@ fn a_map_upside_down_is_caught() {
     let depths = fake.draw(&map, &tracer);
     let flipped: Vec<f32> = depths.chunks(size).rev().flatten().copied().collect();
     let lit = fake.light(&map, &flipped, &truth, &mesh);
-    let counts = judge(&truth, &fake.hand_over(&map, &flipped, &lit), &tracer).expect("sound inputs").counts;
+    let counts = fake.judge(&map, &flipped, &lit, &truth, &tracer).expect("sound inputs").counts;
     assert!(counts.faults() > counts.shadowed && counts.faults() > 4 * counts.edges(), "{counts:?}");
     assert!(counts.missing > counts.shadowed / 3 && counts.false_shadow > 1_000, "{counts:?}");
 }
@@ -257,11 +294,16 @@ fn what_does_not_fit_together_is_refused() {
     let truth = trace(&[0, 1, u32::MAX, 0], &SUN).expect("sound inputs");
     let map = fake::fitted(&SUN, &uniform());
     let depths = vec![1.0; 256 * 256];
-    let whole = Fake::default().hand_over(&map, &depths, &[1.0; 4]);
+    let frustum = Frustum::new(&map, fake::view().eye());
+    let drawn = DrawnMap { projection: &frustum, depths: &depths, is_reversed: false, bias: Bias::default() };
+    let (split, maps) = (Split::whole(), [Some(drawn)]);
+    let whole = Fake::default().hand_over(&split, &maps, &[1.0; 4]);
     let refusal = |rendered: Rendered| judge(&truth, &rendered, &tracer).expect_err("unsound").to_string();
     assert!(judge(&truth, &whole, &tracer).is_ok());
     assert!(refusal(Rendered { lit: &[1.0; 3], ..whole }).contains("3 pixels"));
-    assert!(refusal(Rendered { depths: &depths[1..], ..whole }).contains("65535 texels"));
+    assert!(refusal(Rendered { maps: &[], ..whole }).contains("0 maps"));
+    let cut = [Some(DrawnMap { depths: &depths[1..], ..drawn })];
+    assert!(refusal(Rendered { maps: &cut, ..whole }).contains("65535 texels"));
     assert!(refusal(Rendered { reach: 0.2, ..whole }).contains("not 0.2"));
 }
 

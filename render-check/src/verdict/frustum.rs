@@ -1,48 +1,53 @@
-//! The texels of a map as places: where in them a point falls, where a surface passes one, and how steep it is there.
+//! The projection of a map that is a frustum: one matrix.
 
 use shadowfit::glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
 use shadowfit::{ClipSpace, Map, Origin};
+
+use super::projection::Projection;
 
 /// Rounding of one row of an f32 matrix at a point, relative to the sum of the magnitudes of its four terms: at most six
 /// units in the last place for the products and their sum, and two for what is rounded after the division by w.
 const F32_ROUNDING: f64 = 8.0 / 16_777_216.0;
 
-/// A map's projection as places in its texels.
-///
-/// A place is a column, counted in texels from the left edge, a row, counted from the top edge, and a depth from 0 to 1
-/// away from the light, whatever the map's clip space.
+/// The projection of a fitted [`Map`].
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Texels {
+pub struct Frustum {
+    map: Map,
     /// The rows of the matrix: x, y up, depth from 0 to 1, and w, each to be divided by w.
     x: DVec4,
     y: DVec4,
     depth: DVec4,
     w: DVec4,
-    /// Texels a side.
-    size: u32,
     /// What the f32 matrix takes positions relative to, in world space.
     origin: DVec3,
 }
 
-impl Texels {
-    /// The texels of a map that was fitted to a view with its eye there.
-    pub(super) fn new(map: &Map, eye: DVec3) -> Self {
+impl Frustum {
+    /// The projection of a map that was fitted to a view with its eye there.
+    #[must_use]
+    pub fn new(map: &Map, eye: DVec3) -> Self {
         let clip_from_world = map.shadow_from_world_in(ClipSpace::WGPU);
         let [x, y, depth, w] = [0, 1, 2, 3].map(|i| clip_from_world.row(i));
         let origin = match map.settings().origin() {
             Origin::World => DVec3::ZERO,
             Origin::Eye => eye,
         };
-        Self { x, y, depth, w, size: map.settings().map_size(), origin }
+        Self { map: *map, x, y, depth, w, origin }
     }
 
     /// Texels for each unit of clip space, which is two units wide.
     fn scale(&self) -> f64 {
-        0.5 * f64::from(self.size)
+        0.5 * f64::from(self.size())
+    }
+}
+
+impl Projection for Frustum {
+    fn size(&self) -> u32 {
+        self.map.settings().map_size()
     }
 
-    /// Where a point falls; `None` behind the map, where w is not positive.
-    pub(super) fn place(&self, point: DVec3) -> Option<DVec3> {
+    /// There is none behind the map, where w is not positive.
+    fn place(&self, point: DVec3) -> Option<DVec3> {
         let point = point.extend(1.0);
         let w = self.w.dot(point);
         let clip = DVec3::new(self.x.dot(point), self.y.dot(point), self.depth.dot(point)) / w;
@@ -50,16 +55,7 @@ impl Texels {
         (w > 0.0).then_some(place)
     }
 
-    /// The texel that holds a place, as an index into rows from the top; `None` outside of the map.
-    pub(super) fn index(&self, place: DVec2) -> Option<usize> {
-        let size = f64::from(self.size);
-        let is_inside = place.cmpge(DVec2::ZERO).all() && place.cmplt(DVec2::splat(size)).all();
-        is_inside.then(|| place.y as usize * self.size as usize + place.x as usize)
-    }
-
-    /// The point that falls on a place, on the plane through `point` across `normal`; `None` where the ray of light
-    /// through that place does not meet the plane.
-    pub(super) fn on_plane(&self, point: DVec3, normal: DVec3, place: DVec2) -> Option<DVec3> {
+    fn on_plane(&self, point: DVec3, normal: DVec3, place: DVec2) -> Option<DVec3> {
         // A column is a plane through the light, and so is a row: the point is where both meet the third plane. It is
         // found relative to `point`, which lies close by, so that large coordinates cancel but once.
         let column = self.x - (place.x / self.scale() - 1.0) * self.w;
@@ -70,10 +66,8 @@ impl Texels {
         (found.is_finite() && self.w.dot(found.extend(1.0)) > 0.0).then_some(found)
     }
 
-    /// How much the depth of the plane through `point` across `normal` changes from one column to the next and from one
-    /// row to the next; never negative. It is the same everywhere on the plane. `None` where the light sees the plane
-    /// from its edge.
-    pub(super) fn slopes(&self, point: DVec3, normal: DVec3) -> Option<DVec2> {
+    /// They are the same everywhere on the plane.
+    fn slopes(&self, point: DVec3, normal: DVec3) -> Option<DVec2> {
         let w = self.w.dot(point.extend(1.0));
         let gradient = |row: DVec4| (row.xyz() - row.dot(point.extend(1.0)) / w * self.w.xyz()) / w;
         let [along_x, along_y] = steps_on_plane(gradient(self.x), gradient(self.y), normal)?;
@@ -82,8 +76,7 @@ impl Texels {
         slopes.is_finite().then_some(slopes)
     }
 
-    /// How far the rounding of the f32 matrix can carry a point within the map: texels across, and depth.
-    pub(super) fn rounding(&self, point: DVec3) -> (f64, f64) {
+    fn rounding(&self, point: DVec3) -> (f64, f64) {
         let magnitude = |row: DVec4| {
             let terms = row.xyz() * (point - self.origin);
             terms.abs().element_sum() + row.dot(self.origin.extend(1.0)).abs()
@@ -92,6 +85,10 @@ impl Texels {
         // Rounding of w counts for x, y and depth too, none of which is more than one after the division.
         let of = |row: DVec4| relative * (magnitude(row) + magnitude(self.w));
         (self.scale() * of(self.x).max(of(self.y)), of(self.depth))
+    }
+
+    fn aliasing(&self, point: DVec3) -> f64 {
+        self.map.aliasing(point).unwrap_or(f64::INFINITY)
     }
 }
 
@@ -115,19 +112,19 @@ mod tests {
         let (normal, point) = (DVec3::new(0.2, 0.9, -0.3).normalize(), DVec3::new(0.4, 0.2, -0.6));
         for (light, warp) in [(SUN, Warp::Uniform), (SUN, Warp::Perspective), (LAMP, Warp::Perspective)] {
             let map = fake::fitted(&light, &fake::settings().with_warp(warp));
-            let texels = Texels::new(&map, fake::view().eye());
+            let frustum = Frustum::new(&map, fake::view().eye());
             let lens = Lens::new(map.shadow_from_world_in(ClipSpace::WGPU)).expect("invertible");
-            let place = texels.place(point).expect("in the map");
+            let place = frustum.place(point).expect("in the map");
             let clip = lens.project(point);
             let expected = DVec3::new(128.0 * (1.0 + clip.x), 128.0 * (1.0 - clip.y), clip.z);
             assert!((place - expected).length() < 1e-10, "{place}, not {expected}");
-            assert_eq!(texels.index(place.truncate()), Some(place.y as usize * 256 + place.x as usize));
+            assert_eq!(frustum.index(place.truncate()), Some(place.y as usize * 256 + place.x as usize));
 
-            let slopes = texels.slopes(point, normal).expect("not seen from its edge");
+            let slopes = frustum.slopes(point, normal).expect("not seen from its edge");
             for (step, slope) in [(DVec2::X, slopes.x), (DVec2::Y, slopes.y), (-7.5 * DVec2::Y, 7.5 * slopes.y)] {
-                let aside = texels.on_plane(point, normal, place.truncate() + step).expect("it meets the plane");
+                let aside = frustum.on_plane(point, normal, place.truncate() + step).expect("it meets the plane");
                 assert!((aside - point).dot(normal).abs() < 1e-12);
-                let aside = texels.place(aside).expect("in the map");
+                let aside = frustum.place(aside).expect("in the map");
                 assert!((aside.truncate() - place.truncate() - step).length() < 1e-9, "{aside}");
                 assert!(((aside.z - place.z).abs() - slope).abs() < 1e-12, "{} and {slope}", aside.z - place.z);
             }
@@ -137,33 +134,33 @@ mod tests {
     #[test]
     fn a_plane_seen_from_its_edge_is_endlessly_steep() {
         let map = fake::fitted(&SUN, &fake::settings());
-        let texels = Texels::new(&map, fake::view().eye());
-        let slopes = texels.slopes(DVec3::new(0.4, 0.2, -0.6), DVec3::new(1.0, -0.5, 0.0).normalize());
+        let frustum = Frustum::new(&map, fake::view().eye());
+        let slopes = frustum.slopes(DVec3::new(0.4, 0.2, -0.6), DVec3::new(1.0, -0.5, 0.0).normalize());
         assert!(slopes.is_none_or(|slopes| slopes.max_element() > 1e9), "{slopes:?}");
     }
 
     #[test]
     fn what_is_beside_the_map_has_no_texel() {
         let map = fake::fitted(&SUN, &fake::settings());
-        let texels = Texels::new(&map, fake::view().eye());
+        let frustum = Frustum::new(&map, fake::view().eye());
         for outside in [DVec2::new(-0.1, 3.0), DVec2::new(3.0, 256.0), DVec2::new(f64::NAN, 3.0)] {
-            assert_eq!(texels.index(outside), None);
+            assert_eq!(frustum.index(outside), None);
         }
-        assert_eq!(texels.index(DVec2::new(255.9, 1.0)), Some(511));
+        assert_eq!(frustum.index(DVec2::new(255.9, 1.0)), Some(511));
     }
 
     #[test]
     fn rounding_covers_what_the_f32_matrix_does() {
         let map = fake::fitted(&LAMP, &fake::settings());
-        let texels = Texels::new(&map, fake::view().eye());
+        let frustum = Frustum::new(&map, fake::view().eye());
         let matrix = map.matrix();
         for i in 0..1000 {
             let point =
                 DVec3::new(f64::from(i % 10) - 4.5, 0.13 * f64::from(i / 100), 0.7 - f64::from(i / 10 % 10)) * 0.77;
             let clip = matrix * point.as_vec3().extend(1.0);
             let clip = (clip.truncate() / clip.w).as_dvec3();
-            let place = texels.place(point).expect("in the map");
-            let (across, depth) = texels.rounding(point);
+            let place = frustum.place(point).expect("in the map");
+            let (across, depth) = frustum.rounding(point);
             let off = (DVec3::new(128.0 * (1.0 + clip.x), 128.0 * (1.0 - clip.y), clip.z) - place).abs();
             assert!(off.x <= across && off.y <= across && off.z <= depth, "{off} and {across}, {depth}");
             assert!(across < 1e-2 && depth < 1e-4, "{across}, {depth}");
