@@ -223,7 +223,7 @@ fn along_the_light_a_warp_is_no_warp() {
 /// Draws some casters through some map and judges it: what a broken fit or a broken culler would do.
 fn judged(stage: &Stage<'_>, light: &StageLight, map: &Map, casters: &[std::ops::Range<u32>]) -> Verdict {
     let bias = Bias { constant: 9, slope: 1.125 };
-    let pass = MapPass { format: DepthFormat::Unorm24, faces: Faces::All, bias };
+    let pass = MapPass { format: DepthFormat::Unorm24, faces: Faces::All, bias, receiver: 0.0 };
     let shadow_map = ShadowMap::draw(stage.gpu, &stage.geometry, casters, map, &pass).expect("drawn");
     let lit = shadow_test(stage.gpu, &stage.surfaces, &shadow_map, Filter::Nearest).expect("tested").lit;
     let depths = shadow_map.depths(stage.gpu).expect("readable");

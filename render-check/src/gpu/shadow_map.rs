@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::time::Duration;
 
-use anyhow::{Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use shadowfit::glam::{Mat4, Vec3};
-use shadowfit::{ClipSpace, DepthFormat, DepthRange, Map, YAxis};
+use shadowfit::{ClipSpace, DepthFormat, DepthRange, Map, Offset, YAxis};
 
 use super::pass::{Pass, PipelineKind, depth_state};
 use super::{Geometry, Gpu, read_back, shaders};
@@ -14,7 +14,7 @@ use crate::trace::Faces;
 /// What the rasteriser adds to depth, away from the light.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Bias {
-    /// In steps of the format, see [`Bias::steps`].
+    /// In units of the format, see [`DepthFormat::bias_unit`].
     pub constant: i32,
     /// Times the greater change of depth from texel to texel, across and down.
     pub slope: f32,
@@ -23,28 +23,6 @@ pub struct Bias {
 impl Bias {
     /// No bias.
     pub const NONE: Self = Self { constant: 0, slope: 0.0 };
-
-    /// The depth of one step. In fixed point a driver may take twice the format's own step for one (Mesa's software
-    /// driver does); in floating point it is that of the greatest depth of the triangle, here between a quarter, below
-    /// which a map holds little, and 2, which a triangle that reaches out of the map can have.
-    #[must_use]
-    pub fn steps(format: DepthFormat) -> Steps {
-        match format {
-            DepthFormat::Unorm16 | DepthFormat::Unorm24 => {
-                Steps { least: format.step(1.0), most: 2.0 * format.step(1.0) }
-            }
-            DepthFormat::Float32 => Steps { least: 2_f64.powi(-25), most: 2_f64.powi(-23) },
-        }
-    }
-}
-
-/// What one step of bias may be, in depth, where the map's depth range is 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Steps {
-    /// At least.
-    pub least: f64,
-    /// At most.
-    pub most: f64,
 }
 
 /// How casters are drawn into a map.
@@ -57,6 +35,8 @@ pub struct MapPass {
     pub faces: Faces,
     /// What is added to depth.
     pub bias: Bias,
+    /// What receivers are tested nearer to the light by, where the map's depth range is 1.
+    pub receiver: f64,
 }
 
 fn format_name<S: serde::Serializer>(format: &DepthFormat, serializer: S) -> Result<S::Ok, S::Error> {
@@ -67,6 +47,8 @@ fn format_name<S: serde::Serializer>(format: &DepthFormat, serializer: S) -> Res
 pub struct ShadowMap {
     pub(super) view: wgpu::TextureView,
     pub(super) map: Map,
+    /// What receivers are to be tested with.
+    pub(super) receiver: Offset,
     /// How long the card took, where it has a clock.
     pub time: Option<Duration>,
 }
@@ -101,7 +83,9 @@ impl ShadowMap {
     ) -> Result<Self> {
         let clip = map.settings().clip();
         let reversed = clip.depth.is_reversed();
+        let receiver = Offset::depth(options.receiver).context("receivers cannot be moved so")?;
         let format = match options.format {
+            DepthFormat::Unorm8 => bail!("no card has a depth buffer of 8 bits"),
             DepthFormat::Unorm16 => wgpu::TextureFormat::Depth16Unorm,
             DepthFormat::Unorm24 => wgpu::TextureFormat::Depth24Plus,
             DepthFormat::Float32 => wgpu::TextureFormat::Depth32Float,
@@ -146,7 +130,7 @@ impl ShadowMap {
             draws: &draws,
         };
         let time = pass.run(gpu)?;
-        Ok(Self { view, map: *map, time })
+        Ok(Self { view, map: *map, receiver, time })
     }
 
     /// The depths as they are stored, row by row from the top of the map (y = 1 in wgpu's clip space).

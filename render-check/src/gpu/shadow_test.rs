@@ -115,7 +115,8 @@ fn shadow_test_unguarded(
     }
     .build(gpu);
 
-    let receiver = gpu.uniforms(&[shadow_map.map.texture_matrix(), sampled_from_texture(clip)]);
+    let texture = shadow_map.map.texture_matrix_with(&shadow_map.receiver);
+    let receiver = gpu.uniforms(&[texture, sampled_from_texture(clip)]);
     let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
         mag_filter: wgpu::FilterMode::Linear,
         min_filter: wgpu::FilterMode::Linear,
