@@ -1,5 +1,6 @@
 //! The fit: window, depth row and matrix from a focus and a warp.
 
+use crate::along::Along;
 use crate::bounds::{Interval, Rectangle, least, most};
 use crate::convex::Polyhedron;
 use crate::focus::{Focus, VIEW_IDS, clip_all};
@@ -8,7 +9,7 @@ use crate::light::Light;
 use crate::map::{DepthSpan, Map, Window};
 use crate::perspective::VirtualCamera;
 use crate::rays::{Functional, Rays};
-use crate::rounding::Rounding;
+use crate::rounding::{self, Rounding};
 use crate::scene::{Region, Scene};
 use crate::settings::{Origin, Settings, Shift, Warp};
 use crate::view::View;
@@ -171,6 +172,7 @@ fn fit_visible(
 
     // The window: what R covers. Nothing else in hull(R, l) can widen it.
     let (mut x, mut y, mut depth) = (Interval::EMPTY, Interval::EMPTY, Interval::EMPTY);
+    let mut reach = DVec3::ZERO;
     let (mut c, mut ratio, mut seen) = (Interval::EMPTY, Interval::EMPTY, 0.0);
     let mut rounding = Rounding::new(&map, &rays, origin);
     for point in visible.positions() {
@@ -179,6 +181,7 @@ fn fit_visible(
         x.include(one.x);
         y.include(one.y);
         depth.include(one.z);
+        reach = reach.max((point - origin).abs());
         c.include(values.w);
         let w = rays.w.at(point);
         ratio.include(values.w / w);
@@ -206,11 +209,13 @@ fn fit_visible(
     clip_all(casting, planes, VIEW_IDS, extent, |_, _| ());
     let last = depth.max;
     depth.min = f64::INFINITY;
+    let mut nearest = along.min;
     for point in casting.positions() {
         let values = map.at(point);
         // But for rounding c would never be less.
         let c = most(values.w, 0.5 * least_c);
         depth.min = least(depth.min, values.z / c);
+        nearest = least(nearest, rays.along.at(point));
         rounding.include_casting(point, c);
     }
     // Casters beyond all that is visible shadow none of it. Without any casters the least depth is infinite, and those
@@ -231,8 +236,9 @@ fn fit_visible(
         light: *light,
         settings: *settings,
         camera,
-        window: Window::new(&window, &padded, settings.inner()),
+        window: Window::new(&window, &padded, settings.inner(), rounding.in_window(&padded, settings.map_size())),
         depth: DepthSpan::new(&rays, along.middle(), &padded_depth, rounding.in_depth(&padded_depth)),
+        along: Along::new(&rays, nearest, along, rounding::of_row(&rays.along, origin, reach), smallest),
         weakening,
         warp_ratio: ratio.max / ratio.min,
     })

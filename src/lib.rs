@@ -73,7 +73,9 @@
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
+mod along;
 mod axis;
+mod bias;
 mod bounds;
 mod clip_space;
 mod convex;
@@ -89,6 +91,7 @@ mod homography;
 mod infinity;
 mod light;
 mod map;
+mod offset;
 #[cfg(feature = "parry3d")]
 mod parry;
 mod perspective;
@@ -102,6 +105,7 @@ mod warp;
 #[cfg(feature = "wgsl")]
 pub mod wgsl;
 
+pub use bias::DepthBias;
 pub use clip_space::{ClipSpace, DepthRange, TextureOrigin, YAxis};
 pub use convex::{Body, Face, Plane};
 pub use cube::CubeFace;
@@ -112,6 +116,7 @@ pub use focus::{Focus, Form};
 pub use glam;
 pub use light::{Light, LightPlanes};
 pub use map::{DepthResolution, DepthSpan, Map, Report, Window};
+pub use offset::Offset;
 pub use perspective::{ClassKind, LightClass, NearCase, VirtualCamera, classify};
 pub use quality::{DepthFormat, Footprint};
 pub use scene::{Aabb, ConvexScene, Scene};

@@ -1,16 +1,18 @@
 //! A fitted map: the matrices a renderer uploads, and what they cost and give.
 
+use crate::along::Along;
 use crate::bounds::{Interval, Rectangle};
 use crate::clip_space::ClipSpace;
 use crate::convex::{Body, Plane, matrix_from_rows};
 use crate::focus::{Focus, Form};
 use crate::light::Light;
+use crate::offset::Offset;
 use crate::perspective::{LightClass, VirtualCamera, classify};
-use crate::quality::{DepthFormat, Footprint, depth_resolution, footprint};
+use crate::quality::{DepthFormat, Footprint, depth_resolution, depth_slopes, footprint, linear_depth_resolution};
 use crate::rays::Rays;
 use crate::settings::{Origin, Settings, Warp};
 use crate::view::View;
-use glam::{DMat4, DVec3, Mat4};
+use glam::{DMat4, DVec2, DVec3, Mat4};
 
 /// A fitted shadow map.
 ///
@@ -36,6 +38,7 @@ pub struct Map {
     pub(crate) camera: VirtualCamera,
     pub(crate) window: Window,
     pub(crate) depth: DepthSpan,
+    pub(crate) along: Along,
     pub(crate) weakening: f64,
     pub(crate) warp_ratio: f64,
 }
@@ -52,15 +55,19 @@ pub struct Window {
     /// The part of the width and height that is neither border nor needed by what is visible, added to cover the
     /// rounding of the f32 matrix or because what is visible has no extent of its own.
     pub padding: (f64, f64),
+    /// How far f32 can carry anything visible across the map, in the matrix and in positions, in texels:
+    /// thousandths of one in most uniform maps, more where a strong warp or coordinates far out cost f32 its last bits.
+    pub rounding: f64,
 }
 
 impl Window {
-    pub(crate) fn new(needed: &Rectangle, padded: &Rectangle, inner: f64) -> Self {
+    pub(crate) fn new(needed: &Rectangle, padded: &Rectangle, inner: f64, rounding: f64) -> Self {
         let share = |needed: f64, padded: f64| 1.0 - needed / (padded * inner);
         Self {
             width: 2.0 * padded.half.x,
             height: 2.0 * padded.half.y,
             padding: (share(needed.half.x, padded.half.x), share(needed.half.y, padded.half.y)),
+            rounding,
         }
     }
 }
@@ -127,6 +134,32 @@ impl Map {
         matrix_from_rows(self.settings.clip().texture_rows_from_wgpu(self.rows))
     }
 
+    /// [`Self::texture_matrix`] for receivers that are tested as if they lay nearer to the light: what to upload for the
+    /// shadow test, while casters are drawn with [`Self::matrix`].
+    ///
+    /// Only depth changes, and with it nothing that the fit promises of the window. A receiver that is moved out of the
+    /// near end of the depth range is lit: clamp depth to [0, 1] in the shader, or compare as it is.
+    #[must_use]
+    pub fn texture_matrix_with(&self, offset: &Offset) -> Mat4 {
+        self.about_origin(self.texture_from_world_with(offset)).as_mat4()
+    }
+
+    /// World space to texture space with an offset, see [`Self::texture_matrix_with`].
+    #[must_use]
+    pub fn texture_from_world_with(&self, offset: &Offset) -> DMat4 {
+        let [x, y, z, w] = self.rows;
+        let moved = offset.depth_row(z, w, self.light.homogeneous(), &self.along);
+        matrix_from_rows(self.settings.clip().texture_rows_from_wgpu([x, y, moved, w]))
+    }
+
+    /// Depth as a linear function of world space, for maps that a shader writes: the distance along the map's axis, 0 at
+    /// the first and 1 at the last of all that casts in the window or is visible. For positions relative to the eye its
+    /// offset is its value at the eye.
+    #[must_use]
+    pub fn linear_depth(&self) -> Plane {
+        self.along.linear_depth()
+    }
+
     /// The matrix for positions relative to the origin of the settings.
     fn about_origin(&self, from_world: DMat4) -> DMat4 {
         match self.settings.origin() {
@@ -155,11 +188,30 @@ impl Map {
         2.0 * self.view.half_height(self.view.depth(point)) / f64::from(self.settings.image_height())
     }
 
+    /// How much the depth of the plane through a point across `normal` (of any length) changes from one texel to the next,
+    /// across and down, where the depth range is 1; never negative, and the same all over the plane. `None` outside of the
+    /// map and where the light sees the plane from its edge.
+    #[must_use]
+    pub fn depth_slopes(&self, point: DVec3, normal: DVec3) -> Option<DVec2> {
+        depth_slopes(&self.rows, point, normal, self.settings.map_size())
+    }
+
     /// The distance along the ray from the light, in world units, that one step of a depth format makes at a point.
+    ///
+    /// Depth is z/w as a rasteriser stores it: hyperbolic along a ray wherever w changes along it, which is in every map
+    /// but a directional light's uniform one. See [`Self::linear_depth_resolution`] for the other way.
     #[must_use]
     pub fn depth_resolution(&self, point: DVec3, format: DepthFormat) -> f64 {
         let reversed = self.settings.clip().depth.is_reversed();
         depth_resolution(&self.rows, -self.light.direction_from(point), point, format, reversed)
+    }
+
+    /// The same where a shader stores [`Self::linear_depth`] instead: one distance for all steps of a fixed-point format
+    /// along a ray, where hyperbolic depth has the finer steps towards the light and the coarser ones at the far end
+    /// (Kilgard 2000).
+    #[must_use]
+    pub fn linear_depth_resolution(&self, point: DVec3, format: DepthFormat) -> f64 {
+        linear_depth_resolution(&self.linear_depth(), -self.light.direction_from(point), point, format)
     }
 
     /// The settings the map was fitted with.
@@ -206,7 +258,6 @@ impl Map {
         let visible = focus.visible();
         let over =
             |value: &dyn Fn(DVec3) -> f64| visible.vertices().iter().map(|&point| value(point)).fold(0.0, f64::max);
-        let resolution = |format| over(&|point| self.depth_resolution(point, format));
         Report {
             class: classify(&self.view, &self.light),
             body: focus.body(Form::Tight),
@@ -218,11 +269,10 @@ impl Map {
             depth: self.depth,
             texel: over(&|point| self.footprint(point).map_or(f64::INFINITY, |texel| texel.longest())),
             aliasing: over(&|point| self.aliasing(point).unwrap_or(f64::INFINITY)),
-            depth_resolution: DepthResolution {
-                unorm16: resolution(DepthFormat::Unorm16),
-                unorm24: resolution(DepthFormat::Unorm24),
-                float32: resolution(DepthFormat::Float32),
-            },
+            depth_resolution: DepthResolution::new(|format| over(&|point| self.depth_resolution(point, format))),
+            linear_depth_resolution: DepthResolution::new(|format| {
+                over(&|point| self.linear_depth_resolution(point, format))
+            }),
             visible,
         }
     }
@@ -256,6 +306,8 @@ pub struct Report {
     pub aliasing: f64,
     /// The coarsest depth resolution over the vertices of R.
     pub depth_resolution: DepthResolution,
+    /// The same where a shader stores linear depth, see [`Map::linear_depth_resolution`].
+    pub linear_depth_resolution: DepthResolution,
 }
 
 /// What each depth format resolves, in world units along a ray from the light; infinite where something visible lies
@@ -263,6 +315,9 @@ pub struct Report {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DepthResolution {
+    /// 8-bit unsigned normalised.
+    #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
+    pub unorm8: f64,
     /// 16-bit unsigned normalised.
     #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
     pub unorm16: f64,
@@ -272,4 +327,15 @@ pub struct DepthResolution {
     /// 32-bit float.
     #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
     pub float32: f64,
+}
+
+impl DepthResolution {
+    fn new(of: impl Fn(DepthFormat) -> f64) -> Self {
+        Self {
+            unorm8: of(DepthFormat::Unorm8),
+            unorm16: of(DepthFormat::Unorm16),
+            unorm24: of(DepthFormat::Unorm24),
+            float32: of(DepthFormat::Float32),
+        }
+    }
 }

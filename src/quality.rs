@@ -1,7 +1,8 @@
-//! What a matrix gives: texel footprints and depth resolution.
+//! What a matrix gives: texel footprints, slopes and depth resolution.
 
 use crate::convex::Plane;
-use glam::DVec3;
+use core::ops::RangeInclusive;
+use glam::{DVec2, DVec3};
 
 /// What one texel covers at a point: a parallelogram across the ray from the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,10 +44,13 @@ impl Footprint {
     }
 }
 
-/// A format of depth buffers.
+/// A format that depth is stored in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum DepthFormat {
+    /// 8-bit unsigned normalised: 255 equal steps from 0 to 1. No card has depth buffers of it; it is what a colour channel
+    /// holds, in maps that a shader writes (Brabec, Annen & Seidel 2002; Kilgard 2000 for cards without depth textures).
+    Unorm8,
     /// 16-bit unsigned normalised: 65,535 equal steps from 0 to 1.
     Unorm16,
     /// 24-bit unsigned normalised: 16,777,215 equal steps from 0 to 1.
@@ -60,11 +64,34 @@ impl DepthFormat {
     #[must_use]
     pub fn step(self, value: f64) -> f64 {
         match self {
+            Self::Unorm8 => 1.0 / 255.0,
             Self::Unorm16 => 1.0 / 65_535.0,
             Self::Unorm24 => 1.0 / 16_777_215.0,
             Self::Float32 => {
                 let value = value.clamp(0.0, 1.0) as f32;
                 f64::from(value.next_up()) - f64::from(value)
+            }
+        }
+    }
+
+    /// The depth of one unit of constant bias, at least and at most, in a triangle whose largest depth as stored is
+    /// `largest`: wgpu's and Vulkan's r, `glPolygonOffset`'s r, Direct3D's `DepthBias` of 1.
+    ///
+    /// In fixed point of n bits a unit is 2⁻ⁿ in Direct3D, a hair less than a step of the format, and a driver of Vulkan
+    /// may take twice that (Mesa's software driver takes two steps). In floating point it is 2^(e − 23) with e the exponent
+    /// of `largest`: below 1, where depth is stored, at most 2⁻²⁴, and next to nothing near 0.
+    #[must_use]
+    pub fn bias_unit(self, largest: f64) -> RangeInclusive<f64> {
+        let fixed = |values: f64| values.recip()..=2.0 * self.step(1.0);
+        match self {
+            Self::Unorm8 => fixed(256.0),
+            Self::Unorm16 => fixed(65_536.0),
+            Self::Unorm24 => fixed(16_777_216.0),
+            Self::Float32 => {
+                // Without sign and mantissa a number is the power of two below it.
+                let power = f32::from_bits((largest.max(0.0) as f32).to_bits() & 0x7f80_0000);
+                let unit = f64::from(power) / 8_388_608.0;
+                unit..=unit
             }
         }
     }
@@ -77,13 +104,35 @@ pub(crate) fn footprint(rows: &[Plane; 4], ray: DVec3, point: DVec3, size: u32) 
     if at <= 0.0 || at.is_nan() {
         return None;
     }
-    // Gradients of x/w and y/w. Both vanish along the ray, so that two vectors across it invert them.
-    let gradient = |row: &Plane| (row.normal - w.normal * (row.at(point) / at)) / at;
-    let (x, y) = (gradient(x), gradient(y));
+    // Both gradients vanish along the ray, so that two vectors across it invert them.
+    let (x, y) = (gradient(x, w, point), gradient(y, w, point));
     let (along_x, along_y) = (y.cross(ray), ray.cross(x));
     // Clip space is two units wide.
     let texel = 2.0 / f64::from(size) / x.dot(along_x);
     Some(Footprint { along_x: along_x * texel, along_y: along_y * texel })
+}
+
+/// The gradient of `row`/`w` at a point.
+fn gradient(row: &Plane, w: &Plane, point: DVec3) -> DVec3 {
+    let at = w.at(point);
+    (row.normal - w.normal * (row.at(point) / at)) / at
+}
+
+/// How much depth changes on the plane through a point across `normal` from a texel to the next one across and to the
+/// next one up, never negative; `None` outside of the map and where the light sees the plane from its edge.
+pub(crate) fn depth_slopes(rows: &[Plane; 4], point: DVec3, normal: DVec3, size: u32) -> Option<DVec2> {
+    let [x, y, z, w] = rows;
+    let at = w.at(point);
+    if at <= 0.0 || at.is_nan() {
+        return None;
+    }
+    let (x, y, z) = (gradient(x, w, point), gradient(y, w, point), gradient(z, w, point));
+    // The steps on the plane that change one of x/w and y/w by one and leave the other.
+    let volume = x.dot(y.cross(normal));
+    let (along_x, along_y) = (y.cross(normal) / volume, normal.cross(x) / volume);
+    // Clip space is two units wide.
+    let slopes = DVec2::new(z.dot(along_x), z.dot(along_y)).abs() * (2.0 / f64::from(size));
+    slopes.is_finite().then_some(slopes)
 }
 
 /// The distance along a unit ray away from the light that one step of a depth format makes at a point; infinite
@@ -101,4 +150,10 @@ pub(crate) fn depth_resolution(
     let slope = (z.normal - w.normal * depth).dot(ray) / at;
     let stored = if reversed { 1.0 - depth } else { depth };
     if at > 0.0 { format.step(stored) / slope } else { f64::INFINITY }
+}
+
+/// The same for a depth that is linear in world space.
+pub(crate) fn linear_depth_resolution(linear: &Plane, ray: DVec3, point: DVec3, format: DepthFormat) -> f64 {
+    let slope = linear.normal.dot(ray);
+    if slope > 0.0 { format.step(linear.at(point)) / slope } else { f64::INFINITY }
 }

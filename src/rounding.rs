@@ -1,6 +1,7 @@
 //! What f32 makes of a matrix: how far rounding can carry a point in clip space, and the padding that covers it.
 
 use crate::bounds::{Interval, Rectangle, most};
+use crate::convex::Plane;
 use crate::homography::Homography;
 use crate::rays::Rays;
 use glam::{DMat4, DVec2, DVec3, DVec4};
@@ -14,6 +15,12 @@ const UNITS: f64 = 8.0 / 16_777_216.0;
 
 /// The same in f64, for the dozen or two roundings between a point of the input and a row of the matrix.
 const UNITS_F64: f64 = 32.0 * f64::EPSILON;
+
+/// Rounding of a row of an f32 matrix over points no farther than `extent` from `origin` on each axis, which their
+/// positions are relative to.
+pub(crate) fn of_row(row: &Plane, origin: DVec3, extent: DVec3) -> f64 {
+    UNITS * (row.normal.abs().dot(extent) + row.at(origin).abs())
+}
 
 /// The largest rounding of the rows a, b, e and c of a homography, relative to c, over what is visible and over what can
 /// cast on it.
@@ -65,7 +72,7 @@ const MOST_FOR_LOCAL_CASTERS: f64 = 1.0 / 1024.0;
 /// light from straight above has one depth; were its range no longer than needed, there would be nothing but noise in
 /// it, and every point would shadow itself. With this the noise is 16 steps of 24 bits or a 16th of a step of 16, and
 /// what f32 loses of w besides, while no range grows longer than about what the coordinates are large.
-const QUIET: f64 = 1_048_576.0;
+pub(crate) const QUIET: f64 = 1_048_576.0;
 
 impl Rounding {
     /// No points yet; positions are taken relative to `origin`.
@@ -138,6 +145,21 @@ impl Rounding {
 
     /// Rounding of the depth of what is visible in a depth range, relative to its length.
     pub(crate) fn in_depth(&self, depth: &Interval) -> f64 {
-        self.visible.of_depth(depth.min) / (depth.max - depth.min) + self.visible.w
+        (self.visible.of_depth(depth.min) / (depth.max - depth.min) + self.visible.w) / self.left_of_w()
+    }
+
+    /// Rounding of the place of what is visible in a window, in texels of a map of `size` texels a side, read by texture
+    /// coordinates, whose rows are half the sum of w's and another.
+    pub(crate) fn in_window(&self, window: &Rectangle, size: u32) -> f64 {
+        // w counts once in the row, and twice in the division: |x/w| ≤ 1 there, texture coordinates are half as large.
+        // Where f32 loses half of w or more, a point is anywhere.
+        let left = self.left_of_w();
+        let across = (self.visible.of_window(window) / window.half).max_element() + 3.0 * (1.0 - left);
+        0.5 * f64::from(size) * across / left
+    }
+
+    /// What rounding leaves of w where something is visible, as a part; half of it where it may leave less.
+    fn left_of_w(&self) -> f64 {
+        1.0 - self.visible.w.min(0.5)
     }
 }

@@ -139,6 +139,8 @@ fn reports() {
         let count = allocations(|| {
             black_box(map.report(&focus));
             black_box((map.matrix(), map.texture_matrix()));
+            let bias = map.bias(DepthFormat::Float32, 1.0).unwrap();
+            black_box((map.texture_matrix_with(&bias.offset()), map.linear_depth()));
             for &point in focus.visible().vertices() {
                 black_box((map.aliasing(point), map.depth_resolution(point, DepthFormat::Float32)));
             }

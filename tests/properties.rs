@@ -15,8 +15,8 @@ use arbitrary::{
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use proptest::prelude::*;
 use shadowfit::{
-    Body, ClipSpace, ConvexScene, DepthResolution, Focus, Form, Light, Map, Origin, Outcome, Plane, Scene,
-    Settings, View, Warp, classify,
+    Body, ClipSpace, ConvexScene, DepthFormat, DepthResolution, Focus, Form, Light, Map, Offset, Origin, Outcome,
+    Plane, Scene, Settings, View, Warp, classify,
 };
 
 /// A row of a matrix at a point, and how far rounding can carry it.
@@ -325,8 +325,13 @@ fn exercise(view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) 
         let position = map.shadow_from_world() * point.extend(1.0);
         assert!(position.is_finite(), "{point} is at {position}");
     }
+    for offset in [Offset::world(1.0), Offset::relative(0.1), Offset::depth(1e-3)] {
+        let matrix = map.texture_matrix_with(&offset.expect("a legal offset"));
+        assert!(matrix.is_finite(), "{matrix}");
+    }
+    let bias = map.bias(DepthFormat::Float32, 1.0).expect("a legal reach");
     let report = map.report(&focus);
-    let DepthResolution { unorm16, unorm24, float32 } = report.depth_resolution;
+    let DepthResolution { unorm8, unorm16, unorm24, float32 } = report.depth_resolution;
     let (window, depth, camera) = (report.window, report.depth, report.camera);
     let finite = [
         ("warp ratio", report.warp_ratio),
@@ -335,6 +340,10 @@ fn exercise(view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) 
         ("height", window.height),
         ("padding x", window.padding.0),
         ("padding y", window.padding.1),
+        ("window rounding", window.rounding),
+        ("slope", bias.slope.into()),
+        ("receiver", bias.receiver),
+        ("linear depth", map.linear_depth().normal.length()),
         ("depth near", depth.near),
         ("depth rounding", depth.rounding),
         ("shift", camera.shift),
@@ -349,9 +358,12 @@ fn exercise(view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) 
         ("depth far", depth.far),
         ("texel", report.texel),
         ("aliasing", report.aliasing),
+        ("unorm8", unorm8),
         ("unorm16", unorm16),
         ("unorm24", unorm24),
         ("float32", float32),
+        ("linear unorm8", report.linear_depth_resolution.unorm8),
+        ("linear float32", report.linear_depth_resolution.float32),
     ];
     for (name, value) in numbers {
         assert!(!value.is_nan(), "{name} is NaN");

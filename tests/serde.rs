@@ -7,9 +7,9 @@ use serde::de::DeserializeOwned;
 use serde_json::{Value, from_str, from_value, json, to_string, to_value};
 use shadowfit::glam::{DMat4, DVec3, DVec4, Vec3};
 use shadowfit::{
-    Aabb, ClipSpace, CubeFace, DepthFormat, DepthResolution, DepthSpan, Empty, Focus, Footprint, Form, Light,
-    LightClass, NearCase, Origin, Outcome, Plane, Scene, Settings, Shift, Surrounded, View, VirtualCamera, Warp,
-    Window, classify,
+    Aabb, ClipSpace, CubeFace, DepthBias, DepthFormat, DepthResolution, DepthSpan, Empty, Focus, Footprint, Form,
+    Light, LightClass, NearCase, Offset, Origin, Outcome, Plane, Scene, Settings, Shift, Surrounded, View,
+    VirtualCamera, Warp, Window, classify,
 };
 
 #[track_caller]
@@ -157,11 +157,14 @@ fn results() {
     comes_back::<Window>(report.window);
     comes_back::<DepthSpan>(report.depth);
     comes_back::<DepthResolution>(report.depth_resolution);
+    comes_back::<DepthBias>(map.bias(DepthFormat::Float32, 1.5).unwrap());
+    comes_back([Offset::world(0.1), Offset::relative(1e-3), Offset::depth(1e-4)].map(Result::unwrap));
+    tampered(&Offset::relative(0.1).unwrap(), "/kind/Relative", json!(-2.0), "part is too small");
     comes_back::<Footprint>(map.footprint(focus.visible().vertices()[0]).unwrap());
     comes_back::<Plane>(report.body.planes().next().unwrap());
     comes_back(Aabb::new(Vec3::NEG_ONE, Vec3::ONE * 0.1));
     comes_back([Empty::NothingVisible, Empty::NothingCasts]);
     comes_back(Surrounded);
-    comes_back([DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32]);
+    comes_back([DepthFormat::Unorm8, DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32]);
     comes_back([NearCase::CameraPlane, NearCase::AlongView, NearCase::Eye, NearCase::InsideView]);
 }

@@ -38,7 +38,7 @@ impl FittedMap {
         let objects = &stage.tracer.mesh().objects;
         let meets = objects.iter().filter(|object| body.meets_box(object.min, object.max));
         let casters = meets.map(|object| object.triangles.clone()).collect();
-        Ok(Ok(Self { map, pass: options.pass(&map), casters }))
+        Ok(Ok(Self { map, pass: options.pass(&map)?, casters }))
     }
 
     /// How it lays out the world, fitted to a view with its eye there.

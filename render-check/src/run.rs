@@ -31,7 +31,7 @@ pub struct Options {
     pub faces: Faces,
     /// How it is read.
     pub filter: Filter,
-    /// What is added to depth; `None` for what the filter needs, see [`enough_bias`].
+    /// What is added to depth; `None` for what the map says that the filter needs, see [`Map::bias`].
     pub bias: Option<Bias>,
     /// How often it is drawn and read, for the median of the times.
     pub frames: u32,
@@ -54,10 +54,19 @@ impl Options {
     }
 
     /// How a map is drawn.
-    #[must_use]
-    pub fn pass(&self, map: &Map) -> MapPass {
-        let bias = self.bias.unwrap_or_else(|| enough_bias(self.format, self.filter, map.depth().rounding));
-        MapPass { format: self.format, faces: self.faces, bias }
+    ///
+    /// # Errors
+    ///
+    /// When the filter reaches nowhere.
+    pub fn pass(&self, map: &Map) -> Result<MapPass> {
+        let (bias, receiver) = match self.bias {
+            Some(bias) => (bias, 0.0),
+            None => {
+                let enough = map.bias(self.format, self.filter.reach()).context("there is no such filter")?;
+                (Bias { constant: enough.constant, slope: enough.slope }, enough.receiver)
+            }
+        };
+        Ok(MapPass { format: self.format, faces: self.faces, bias, receiver })
     }
 
     /// As many texels around what is visible as the filter reaches.
@@ -76,19 +85,6 @@ impl Options {
         let settings = settings.with_border(self.border()).context("the filter is too wide for so small a map")?;
         Ok(self.technique.settings(settings).with_clip(self.clip.into()).with_origin(Origin::Eye))
     }
-}
-
-/// The bias with which a plane does not shadow itself.
-///
-/// A filter compares a point's depth with that of texels whose middles are up to [`Filter::reach`] away, across and
-/// down; the hardware's slope is the greater of the two changes of depth a texel, so the plane's depth differs by at most
-/// twice the reach times it. The rasteriser places vertices to a 256th of a texel and interpolates across small triangles
-/// with that error, for which an eighth of a texel is added. The constant is for rounding: of the stored value, half a
-/// step; and of the two depths compared in f32, as the map says.
-#[must_use]
-pub fn enough_bias(format: DepthFormat, filter: Filter, rounding: f64) -> Bias {
-    let constant = (0.5 + 2.0 * rounding / Bias::steps(format).least).ceil() as i32;
-    Bias { constant, slope: 2.0 * filter.reach() as f32 + 0.125 }
 }
 
 /// Median times.

@@ -262,7 +262,7 @@ fn along_the_light_a_warp_is_no_warp() {
 /// Draws some casters through some map and judges it: what a broken fit or a broken culler would do.
 fn judged(stage: &Stage<'_>, light: &StageLight, map: &Map, casters: &[std::ops::Range<u32>]) -> Verdict {
     let bias = Bias { constant: 9, slope: 1.125 };
-    let pass = MapPass { format: DepthFormat::Unorm24, faces: Faces::All, bias };
+    let pass = MapPass { format: DepthFormat::Unorm24, faces: Faces::All, bias, receiver: 0.0 };
     let split = Split::whole();
     let draw = MapDraw { map, casters, pass };
     let shadow_maps = ShadowMaps::draw(stage.gpu, &stage.geometry, &split, &[Some(draw)]).expect("drawn");

@@ -19,7 +19,7 @@ mod surfaces;
 
 pub use device::Gpu;
 pub use geometry::Geometry;
-pub use shadow_map::{Bias, MapDraw, MapPass, ShadowMaps, Steps};
+pub use shadow_map::{Bias, MapDraw, MapPass, ShadowMaps};
 pub use shadow_test::{Filter, Shadows, shadow_test};
 pub use surfaces::Surfaces;
 

@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::time::Duration;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use shadowfit::glam::{Mat4, Vec3, Vec4};
-use shadowfit::{ClipSpace, DepthFormat, DepthRange, Map, YAxis};
+use shadowfit::{ClipSpace, DepthFormat, DepthRange, Map, Offset, YAxis};
 
 use super::pass::{Pass, PipelineKind, depth_state};
 use super::{Geometry, Gpu, read_back, shaders};
@@ -15,7 +15,7 @@ use crate::trace::Faces;
 /// What the rasteriser adds to depth, away from the light.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Bias {
-    /// In steps of the format, see [`Bias::steps`].
+    /// In units of the format, see [`DepthFormat::bias_unit`].
     pub constant: i32,
     /// Times the greater change of depth from texel to texel, across and down.
     pub slope: f32,
@@ -24,28 +24,6 @@ pub struct Bias {
 impl Bias {
     /// No bias.
     pub const NONE: Self = Self { constant: 0, slope: 0.0 };
-
-    /// The depth of one step. In fixed point a driver may take twice the format's own step for one (Mesa's software
-    /// driver does); in floating point it is that of the greatest depth of the triangle, here between a quarter, below
-    /// which a map holds little, and 2, which a triangle that reaches out of the map can have.
-    #[must_use]
-    pub fn steps(format: DepthFormat) -> Steps {
-        match format {
-            DepthFormat::Unorm16 | DepthFormat::Unorm24 => {
-                Steps { least: format.step(1.0), most: 2.0 * format.step(1.0) }
-            }
-            DepthFormat::Float32 => Steps { least: 2_f64.powi(-25), most: 2_f64.powi(-23) },
-        }
-    }
-}
-
-/// What one step of bias may be, in depth, where the map's depth range is 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Steps {
-    /// At least.
-    pub least: f64,
-    /// At most.
-    pub most: f64,
 }
 
 /// How casters are drawn into a map.
@@ -58,6 +36,8 @@ pub struct MapPass {
     pub faces: Faces,
     /// What is added to depth.
     pub bias: Bias,
+    /// What receivers are tested nearer to the light by, where the map's depth range is 1.
+    pub receiver: f64,
 }
 
 fn format_name<S: serde::Serializer>(format: &DepthFormat, serializer: S) -> Result<S::Ok, S::Error> {
@@ -82,8 +62,8 @@ pub struct ShadowMaps {
     pub(super) view: wgpu::TextureView,
     /// One by one.
     layers: Vec<wgpu::TextureView>,
-    /// The map in each layer.
-    pub(super) maps: Vec<Map>,
+    /// The map in each layer, and what receivers are to be tested with.
+    pub(super) maps: Vec<(Map, Offset)>,
     /// The axis of each part of the light and, in w, its layer; −1 for a part without a map.
     pub(super) parts: Vec<Vec4>,
     /// The light's position, relative to the geometry's origin.
@@ -110,6 +90,7 @@ impl ShadowMaps {
         ensure!(size <= largest, "{} holds maps of {largest} texels a side, not of {size}", gpu.name());
         gpu.guarded("the shadow map", || {
             let format = match first.pass.format {
+                DepthFormat::Unorm8 => bail!("no card has a depth buffer of 8 bits"),
                 DepthFormat::Unorm16 => wgpu::TextureFormat::Depth16Unorm,
                 DepthFormat::Unorm24 => wgpu::TextureFormat::Depth24Plus,
                 DepthFormat::Float32 => wgpu::TextureFormat::Depth32Float,
@@ -135,11 +116,15 @@ impl ShadowMaps {
                 layer += f32::from(u8::from(map.is_some()));
                 axis.as_vec3().extend(if map.is_some() { layer } else { -1.0 })
             });
+            let receiver = |draw: &MapDraw<'_>| {
+                let offset = Offset::depth(draw.pass.receiver).context("receivers cannot be moved so")?;
+                Ok((*draw.map, offset))
+            };
             Ok(Self {
                 view: view(wgpu::TextureViewDimension::D2Array, 0, drawn.len() as u32),
                 parts: parts.collect(),
                 layers,
-                maps: drawn.iter().map(|draw| *draw.map).collect(),
+                maps: drawn.iter().map(|draw| receiver(draw)).collect::<Result<_>>()?,
                 light: (split.position() - geometry.origin()).as_vec3(),
                 time,
             })
@@ -152,7 +137,7 @@ impl ShadowMaps {
     ///
     /// When the card refuses.
     pub fn depths(&self, gpu: &Gpu) -> Result<Vec<Vec<f32>>> {
-        let depths = |(layer, map): (_, &Map)| read_back::depths(gpu, layer, map.settings().map_size());
+        let depths = |(layer, (map, _)): (_, &(Map, _))| read_back::depths(gpu, layer, map.settings().map_size());
         gpu.guarded("the shadow map's depths", || self.layers.iter().zip(&self.maps).map(depths).collect())
     }
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use anyhow::Result;
 use shadowfit::glam::{Mat4, Vec3};
-use shadowfit::{ClipSpace, Map, TextureOrigin, YAxis};
+use shadowfit::{ClipSpace, Map, Offset, TextureOrigin, YAxis};
 
 use super::pass::{FULL_SCREEN, Pass, PipelineKind};
 use super::{Gpu, ShadowMaps, Surfaces, read_back, shaders};
@@ -92,7 +92,7 @@ fn shadow_test_unguarded(
     filter: Filter,
 ) -> Result<Shadows> {
     // The layers of a texture are alike in this.
-    let reversed = shadow_maps.maps.iter().any(|map| map.settings().clip().depth.is_reversed());
+    let reversed = shadow_maps.maps.iter().any(|(map, _)| map.settings().clip().depth.is_reversed());
     let (shader, taps) = match filter {
         Filter::Nearest => (shaders::NEAREST, None),
         Filter::Hardware => (shaders::HARDWARE, None),
@@ -117,7 +117,9 @@ fn shadow_test_unguarded(
 
     let split = [shadow_maps.light.extend(0.0)].into_iter().chain(shadow_maps.parts.iter().copied());
     let split = gpu.storage(split.flat_map(|row| row.to_array()));
-    let matrices = |map: &Map| [map.texture_matrix(), sampled_from_texture(map.settings().clip())];
+    let matrices = |(map, receiver): &(Map, Offset)| {
+        [map.texture_matrix_with(receiver), sampled_from_texture(map.settings().clip())]
+    };
     let layers = gpu.storage(shadow_maps.maps.iter().flat_map(matrices).flat_map(|matrix| matrix.to_cols_array()));
     let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
         mag_filter: wgpu::FilterMode::Linear,

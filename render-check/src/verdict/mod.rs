@@ -29,7 +29,7 @@ pub use report::{Aliasing, Counts, Mark, Verdict, share};
 pub use surface::Surface;
 pub use truth::{Illumination, Truth, TruthImage};
 
-use crate::gpu::{self, MapPass};
+use crate::gpu::MapPass;
 use crate::split::Split;
 use crate::trace::{Faces, Tracer};
 
@@ -47,8 +47,9 @@ impl Bias {
     /// The most that a card can have added in a pass.
     #[must_use]
     pub fn most(pass: &MapPass) -> Self {
-        let step = gpu::Bias::steps(pass.format).most;
-        Self { constant: f64::from(pass.bias.constant) * step, slope: pass.bias.slope.into() }
+        // A triangle that reaches out of the map can have depths from 1 on.
+        let unit = *pass.format.bias_unit(1.0).end();
+        Self { constant: f64::from(pass.bias.constant) * unit, slope: pass.bias.slope.into() }
     }
 }
 

@@ -1,0 +1,191 @@
+//! The bias that a fitted map needs: with it no plane shadows itself, and no more is added than that takes.
+
+use crate::error::{InputError, Problem, check};
+use crate::map::Map;
+use crate::offset::Offset;
+use crate::quality::DepthFormat;
+use crate::settings::Settings;
+use glam::DVec3;
+
+/// What is added to depth so that no plane shadows itself ([`Map::bias`]).
+///
+/// # Use
+///
+/// `constant` and `slope` go to the rasteriser that draws casters, away from the light; where depth is reversed, that is
+/// towards smaller values, and **the caller negates both**. `receiver` goes to the shadow test, through
+/// [`Map::texture_matrix_with`], which knows about reversed depth by itself.
+///
+/// | | constant | slope | clamp |
+/// |---|---|---|---|
+/// | wgpu, `DepthBiasState` | `constant` | `slope_scale` | 0 |
+/// | Vulkan, `vkCmdSetDepthBias` | `depthBiasConstantFactor` | `depthBiasSlopeFactor` | 0 |
+/// | OpenGL, `glPolygonOffset` | `units` | `factor` | |
+/// | Direct3D | `DepthBias` | `SlopeScaledDepthBias` | 0 |
+/// | a shader that writes depth, with m = max(\|dz/dx\|, \|dz/dy\|) | steps of the format | times m | |
+///
+/// `constant` and, in most maps, `slope` depend on the format and the filter alone, which suits pipelines that they are
+/// compiled into; what changes from fit to fit is in the receiver's matrix, which is uploaded with every fit anyway. One
+/// who tests with [`Map::texture_matrix`] as it is takes [`Self::constant_alone`].
+///
+/// ```
+/// use shadowfit::{DepthFormat, Light, Scene, Settings, View, fit};
+///
+/// let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 500.0)?;
+/// let sun = Light::directional((0.4, 1.0, 0.2))?;
+/// let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
+/// if let Some(map) = fit(&view, &sun, &scene, &Settings::default()).map() {
+///     let bias = map.bias(DepthFormat::Float32, 1.0)?; // a comparison sampler's 2 × 2 texels
+///     println!("constant {}, slope_scale {}", bias.constant, bias.slope);
+///     println!("upload {} for casters and {} for receivers", map.matrix(), map.texture_matrix_with(&bias.offset()));
+/// }
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
+///
+/// # Derivation
+///
+/// On a plane depth is an affine function D of the place in the map, in texels (a projective map takes planes to planes),
+/// with gradient (p, q). A filter compares the depth of a receiver at R with what is stored for the middle T of each texel
+/// that it reads, which lies at most `reach` away, across and down.
+///
+/// *What is stored.* The corners of a triangle of that plane are off, each by itself: across by at most s = t + 1/256
+/// texels, t what f32 makes of a place ([`Window::rounding`](crate::Window::rounding)) and 1/256 a step of the grid that
+/// rasterisers move corners to, half of it for the grid and half for the interpolation of depth; in depth by at most ε
+/// ([`DepthSpan::rounding`](crate::DepthSpan::rounding)). The triangle's own depth D' is affine too. E = D' − D is within
+/// e = s(\|p\| + \|q\|) + ε at the corners, so within the triangle, and the length of its gradient is at most 2e/h where no
+/// height of the triangle is less than h.
+///
+/// *What the receiver may exceed it by.* R is read off by t more, so that T − R is at most r = reach + t on each axis, and
+///
+/// ```text
+///     D(R) − D'(T) = (D'(R) − D'(T)) − E(R) ≤ r (|p'| + |q'|) + k e       k = 1 + 2√2 r/h
+///     |p| + |q| ≤ 2 max(|p|, |q|) ≤ 2 (m + 2e/h)                          m = max(|p'|, |q'|)
+///     e ≤ (2 s m + ε)/(1 − 4 s/h)
+/// ```
+///
+/// *What the rasteriser adds.* Slope times the larger of \|p'\| and \|q'\|, or any value from there to the length of the
+/// gradient, as the API's documents allow: at least slope · m, and |p'| + |q'| is at most 2 m. So
+///
+/// ```text
+///     slope    = 2 r + 2 k s/(1 − 4 s/h)
+///     receiver = ε + k ε/(1 − 4 s/h)          ε of the receiver's own depth, and of the corners'
+///     constant = 1
+/// ```
+///
+/// covers all but the rounding of what is stored, half a step, and of what it is compared with where a card brings that
+/// into the map's format, the other half: one unit. In fixed point a unit is a step of the format, or in Direct3D less by
+/// so little that `receiver` takes it. In floating point it is a step at the triangle's largest depth, so that it covers
+/// the rounding of a stored value, which is relative too. It vanishes towards depth 0, where ε does not, so that **no
+/// number of units can cover ε**: at the near end of a map, or at the far end of a reversed one. That is why ε is the
+/// receiver's.
+///
+/// # What it takes for granted
+///
+/// - h is a texel, or eight times s where that is more: of thinner triangles the slope itself is noise, and they may be
+///   biased too little.
+/// - Corners of triangles are no farther from the origin of the settings than what is visible, or their positions round
+///   more coarsely than ε says. A rasteriser's grid has 8 bits, as Direct3D asks and all cards today have.
+/// - It is about planes. At a convex edge, or on a curved surface made of facets, a texel's middle may lie on a facet with
+///   less slope than the receiver's; a card knows only the caster's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct DepthBias {
+    /// The format that it is for.
+    pub format: DepthFormat,
+    /// Units of constant bias, away from the light, see [`DepthFormat::bias_unit`].
+    pub constant: i32,
+    /// What multiplies the slope: the larger of depth's changes to the next texel, across and down.
+    pub slope: f32,
+    /// What receivers are tested nearer to the light by, where the depth range is 1.
+    pub receiver: f64,
+}
+
+/// The grid that corners of triangles are moved to, in texels.
+const GRID: f64 = 1.0 / 256.0;
+
+/// The least height of a triangle that the bias answers for, in texels.
+const LEAST_HEIGHT: f64 = 1.0;
+
+/// Slopes are the next multiple of this, so that they stay the same while the rounding of f32 changes.
+const SLOPE_STEP: f64 = 1.0 / 16.0;
+
+impl DepthBias {
+    /// The receiver's part, for [`Map::texture_matrix_with`].
+    #[must_use]
+    pub fn offset(&self) -> Offset {
+        Offset::of_depth(self.receiver)
+    }
+
+    /// The constant that does without the receiver's part; `None` in floating point, where none does.
+    #[must_use]
+    pub fn constant_alone(&self) -> Option<i32> {
+        match self.format {
+            DepthFormat::Unorm8 | DepthFormat::Unorm16 | DepthFormat::Unorm24 => {
+                let units = self.receiver / self.format.bias_unit(1.0).start();
+                Some(self.constant.saturating_add(units as i32).saturating_add(1))
+            }
+            DepthFormat::Float32 => None,
+        }
+    }
+}
+
+impl Map {
+    /// The bias with which no plane shadows itself in this map.
+    ///
+    /// `reach` is how far from a point the middles of the texels lie that are compared for it, at most, across and down, in
+    /// texels: 0.5 for the nearest texel, 1 for a comparison sampler's 2 × 2, n/2 for n × n. A filter of several samplers'
+    /// reads reaches as far as its farthest read does and one texel more.
+    ///
+    /// # Errors
+    ///
+    /// Names `"reach"` when it is not finite, below 0.5 or above [`Settings::MAX_SIZE`].
+    pub fn bias(&self, format: DepthFormat, reach: f64) -> Result<DepthBias, InputError> {
+        let reach = check::coordinate("reach", reach)?;
+        if reach < 0.5 {
+            return check::fail("reach", Problem::TooSmall);
+        }
+        if reach > f64::from(Settings::MAX_SIZE) {
+            return check::fail("reach", Problem::TooLarge);
+        }
+        let (across, noise) = (self.window.rounding, self.depth.rounding);
+        let reach = reach + across;
+        let corner = GRID + across;
+        let height = LEAST_HEIGHT.max(8.0 * corner);
+        // Of an error of a corner, at most so much is found at the receiver.
+        let spread = (1.0 + 2.0 * core::f64::consts::SQRT_2 * reach / height) / (1.0 - 4.0 * corner / height);
+        let slope = 2.0 * reach + 2.0 * spread * corner;
+        // A unit may be less than a step by a little. A half is in the range of depths with the largest steps below 1.
+        let short = (format.step(0.5) - format.bias_unit(0.5).start()).max(0.0);
+        Ok(DepthBias {
+            format,
+            constant: 1,
+            slope: (f64::from((slope / SLOPE_STEP) as u32 + 1) * SLOPE_STEP) as f32,
+            receiver: noise + spread * noise + short,
+        })
+    }
+
+    /// How far behind a caster a receiver may be and still be lit, in world units along the ray through a point on the
+    /// caster: what the bias costs, and what lifts shadows off the feet of things ("peter-panning").
+    ///
+    /// It is the most that a driver may make of the bias, on a plane across `normal` (of any length), where the ray goes
+    /// through the middle of a texel; elsewhere in the texel it is more or less by the plane's own slope. Infinite outside
+    /// of the map, where the light sees the plane from its edge, and where no depth is so much larger.
+    #[must_use]
+    pub fn bias_distance(&self, point: DVec3, normal: DVec3, bias: &DepthBias) -> f64 {
+        let Some(slopes) = self.depth_slopes(point, normal) else {
+            return f64::INFINITY;
+        };
+        let unit = bias.format.bias_unit(1.0);
+        // The constant, the slope as the length of the gradient, the receiver's part, and the rounding of what is stored.
+        let added = f64::from(bias.constant) * unit.end()
+            + f64::from(bias.slope) * slopes.length()
+            + bias.receiver
+            + bias.format.step(0.5);
+        let [_, _, depth, w] = &self.rows;
+        let ray = -self.light.direction_from(point);
+        let at = w.at(point);
+        // The δ with depth(X + δ ray) = depth(X) + added: both rows are linear in it.
+        let reached = depth.at(point) / at + added;
+        let change = (depth.normal - w.normal * reached).dot(ray);
+        if change > 0.0 { added * at / change } else { f64::INFINITY }
+    }
+}

@@ -1,0 +1,121 @@
+//! Offsets of receivers, folded into the matrix that they are tested with.
+
+use crate::along::Along;
+use crate::convex::Plane;
+use crate::error::{InputError, Problem, check};
+use glam::DVec4;
+
+/// How much nearer to the light receivers are tested than they are.
+///
+/// With e the row of depth, c that of w and l the light, c·l = 0 and so for any number or affine function g
+///
+/// ```text
+///     e·(X + g l)   e·X + g e·l
+///     ----------- = -----------         a = a·(X + g l), likewise b: (u, v) stay
+///     c·(X + g l)       c·X
+/// ```
+///
+/// so that the row e + (e·l) g gives a point the depth that X + g l has: exactly that of a point on the same ray nearer to
+/// the light, whatever the warp. An offset costs nothing at run time, and where a rasteriser's bias knows the slope of the
+/// caster alone, it may be what a slope cannot cover: rounding, curved facets, creases.
+///
+/// | offset | g | moves a receiver towards the light by |
+/// |---|---|---|
+/// | [`Offset::world`], directional light | h | h world units |
+/// | [`Offset::world`], light at a position | a chord of h/(a − h) | h world units or more, wherever something is visible |
+/// | [`Offset::relative`] | k | k/(1 + k) of its distance; k world units under a directional light |
+/// | [`Offset::depth`] | | what changes its depth by β: the row is e − β c |
+///
+/// Negative numbers move receivers away. Reversed depth and depth from −1 are taken care of: offsets are given as if depth
+/// grew away from the light, 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "stored::Offset"))]
+pub struct Offset {
+    kind: Kind,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+enum Kind {
+    World(f64),
+    Relative(f64),
+    Depth(f64),
+}
+
+impl Offset {
+    /// Towards the light by `distance` world units.
+    ///
+    /// A light at a position moves no two receivers along parallel rays, and no matrix moves them all by one distance:
+    /// every visible one is moved by at least so much, and those nearest to the light and farthest from it, on the axis of
+    /// the map, by just so much. None is moved by more than half of what the nearest is away from the light.
+    ///
+    /// # Errors
+    ///
+    /// Names `"distance"` when it is not finite or too large.
+    pub fn world(distance: f64) -> Result<Self, InputError> {
+        Ok(Self { kind: Kind::World(check::coordinate("distance", distance)?) })
+    }
+
+    /// To the homogeneous point X + `part` · l, see [`Light::homogeneous`](crate::Light::homogeneous): towards a light at
+    /// a position by `part`/(1 + `part`) of the distance to it, which grows with distance as footprints of texels do, the
+    /// form for lamps. The unit of a directional light, which has no distance, is the world's: there it is the same as
+    /// [`Self::world`].
+    ///
+    /// # Errors
+    ///
+    /// Names `"part"` when it is not finite, too large, or less than −1/2: from −1 on there is no such point.
+    pub fn relative(part: f64) -> Result<Self, InputError> {
+        let part = check::coordinate("part", part)?;
+        if part < -0.5 {
+            return check::fail("part", Problem::TooSmall);
+        }
+        Ok(Self { kind: Kind::Relative(part) })
+    }
+
+    /// Nearer by `depth`, where the depth range is 1: [`DepthBias::receiver`](crate::DepthBias::receiver) is for this.
+    ///
+    /// # Errors
+    ///
+    /// Names `"depth"` when it is not finite or too large.
+    pub fn depth(depth: f64) -> Result<Self, InputError> {
+        Ok(Self { kind: Kind::Depth(check::coordinate("depth", depth)?) })
+    }
+
+    /// [`Self::depth`] for a number that the crate has found.
+    pub(crate) const fn of_depth(depth: f64) -> Self {
+        Self { kind: Kind::Depth(depth) }
+    }
+
+    /// The row of depth, 0 to 1, with this offset in it.
+    pub(crate) fn depth_row(&self, depth: Plane, w: Plane, light: DVec4, along: &Along) -> Plane {
+        let part = match self.kind {
+            Kind::Depth(by) => return depth - w * by,
+            Kind::Relative(part) => Plane::ONE * part,
+            Kind::World(distance) if light.w == 0.0 => Plane::ONE * distance,
+            Kind::World(distance) => along.part_of_light(distance),
+        };
+        depth + part * depth.on(light)
+    }
+}
+
+/// Offsets as they are stored: the same values, checked again when they are read.
+#[cfg(feature = "serde")]
+mod stored {
+    use super::{InputError, Kind};
+
+    #[derive(serde::Deserialize)]
+    pub(super) struct Offset {
+        kind: Kind,
+    }
+
+    impl TryFrom<Offset> for super::Offset {
+        type Error = InputError;
+        fn try_from(offset: Offset) -> Result<Self, InputError> {
+            match offset.kind {
+                Kind::World(distance) => Self::world(distance),
+                Kind::Relative(part) => Self::relative(part),
+                Kind::Depth(depth) => Self::depth(depth),
+            }
+        }
+    }
+}
