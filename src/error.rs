@@ -49,6 +49,8 @@ pub enum Problem {
     Empty,
     /// A list longer than its documentation allows.
     TooMany,
+    /// An index that is past the end of its list.
+    OutOfRange,
 }
 
 impl fmt::Display for Problem {
@@ -67,6 +69,7 @@ impl fmt::Display for Problem {
             }
             Self::Empty => "is empty",
             Self::TooMany => "holds too many elements",
+            Self::OutOfRange => "has an index past the end of its list",
         })
     }
 }
