@@ -51,6 +51,8 @@ pub enum Problem {
     Empty,
     /// A list longer than its documentation allows.
     TooMany,
+    /// An index that is past the end of its list.
+    OutOfRange,
 }
 
 impl fmt::Display for Problem {
@@ -70,6 +72,7 @@ impl fmt::Display for Problem {
             Self::NotAllAround => "shines neither all around nor into a half space",
             Self::Empty => "is empty",
             Self::TooMany => "holds too many elements",
+            Self::OutOfRange => "has an index past the end of its list",
         })
     }
 }

@@ -64,6 +64,7 @@
 //! - `libm`: square roots and angles from the `libm` crate, with the same bits on every platform.
 //! - `parry3d`: bodies, boxes and convex hulls from and to parry3d.
 //! - `mint`: vectors and matrices of other libraries at the door, through glam.
+//! - `spade`: meshes cut finely enough for paraboloid maps (`Refiner`).
 //! - `serde`: views, lights, settings and results can be stored; what is read is checked like any other input.
 //!
 //! glam 0.33.12 to 0.34 are accepted, and the one in use is re-exported as [`glam`]. To pin it to the version another
@@ -92,11 +93,14 @@ mod infinity;
 mod light;
 mod map;
 mod offset;
+mod paraboloid;
 #[cfg(feature = "parry3d")]
 mod parry;
 mod perspective;
 mod quality;
 mod rays;
+#[cfg(feature = "spade")]
+mod refine;
 mod rounding;
 mod scene;
 mod settings;
@@ -117,8 +121,11 @@ pub use glam;
 pub use light::{Light, LightPlanes};
 pub use map::{DepthResolution, DepthSpan, Map, Report, Window};
 pub use offset::Offset;
+pub use paraboloid::{Paraboloid, ParaboloidRounding, Paraboloids};
 pub use perspective::{ClassKind, LightClass, NearCase, VirtualCamera, classify};
 pub use quality::{DepthFormat, Footprint};
+#[cfg(feature = "spade")]
+pub use refine::{Added, Refined, Refiner};
 pub use scene::{Aabb, ConvexScene, Scene};
 pub use settings::{Origin, Settings, Shift, Warp};
 pub use view::{FrustumPlanes, Lens, View};

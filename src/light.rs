@@ -176,6 +176,14 @@ impl Light {
         }
     }
 
+    /// The unit axis of a spot or a hemisphere, away from the light.
+    pub(crate) const fn axis(&self) -> Option<DVec3> {
+        match self.kind {
+            Kind::Local { shape: Shape::Spot { axis, .. } | Shape::Hemisphere { axis }, .. } => Some(axis),
+            Kind::Directional { .. } | Kind::Local { shape: Shape::Point, .. } => None,
+        }
+    }
+
     /// The unit direction from a point towards the light.
     #[must_use]
     pub fn direction_from(&self, point: DVec3) -> DVec3 {

@@ -3,3 +3,7 @@
 //! Each constant is the text of a few functions without bindings or entry points, to be put before the shader that calls
 //! them. What they need they take as arguments: matrices as this crate gives them, textures, samplers. All names begin
 //! with `shadowfit_`.
+
+/// Paraboloid maps: `shadowfit_paraboloid_clip` for the vertices of casters, `shadowfit_paraboloid_texture` for what reads
+/// the map. See [`Paraboloid`](crate::Paraboloid).
+pub const PARABOLOID: &str = include_str!("paraboloid.wgsl");
