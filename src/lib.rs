@@ -95,8 +95,13 @@ mod quality;
 mod rays;
 mod rounding;
 mod scene;
+#[cfg(feature = "std")]
+mod second_depth;
 mod settings;
+#[cfg(feature = "std")]
+mod solidity;
 mod view;
+mod virtual_sample;
 mod warp;
 #[cfg(feature = "wgsl")]
 pub mod wgsl;
@@ -113,5 +118,10 @@ pub use map::{DepthResolution, DepthSpan, Map, Report, Window};
 pub use perspective::{ClassKind, LightClass, NearCase, VirtualCamera, classify};
 pub use quality::{DepthFormat, Footprint};
 pub use scene::{Aabb, ConvexScene, Scene};
+#[cfg(feature = "std")]
+pub use second_depth::{Culling, DepthTest};
 pub use settings::{Origin, Settings, Shift, Warp};
+#[cfg(feature = "std")]
+pub use solidity::{Sheet, Solidity, SolidityReport};
 pub use view::{FrustumPlanes, Lens, View};
+pub use virtual_sample::{LEAST_INCIDENCE, Rule, SUBTEXEL, Sampled, TangentPlane};

@@ -85,6 +85,8 @@ pub struct MapReport {
     pub pass: MapPass,
     /// What was drawn into it.
     pub drawn: Drawn,
+    /// The share of the compared pixels where virtual samples decided; nothing with a filter that has none.
+    pub used_plane: Option<f64>,
     /// How long it took.
     pub times: Times,
     /// How it compares with the truth.
@@ -102,6 +104,7 @@ impl RunReport {
                 weakening: run.map.weakening(),
                 pass: run.pass,
                 drawn: run.drawn,
+                used_plane: run.used_plane,
                 times: run.times,
                 verdict: run.verdict.clone(),
             })),

@@ -54,7 +54,12 @@ impl Options {
     }
 
     fn pass(&self, map: &Map) -> MapPass {
-        let bias = self.bias.unwrap_or_else(|| enough_bias(self.format, self.filter, map.depth().rounding));
+        // Second depth and virtual samples do without.
+        let bias = match (self.faces, self.filter) {
+            (Faces::Second, _) | (_, Filter::Virtual(_)) => Bias::NONE,
+            _ => enough_bias(self.format, self.filter, map.depth().rounding),
+        };
+        let bias = self.bias.unwrap_or(bias);
         MapPass { format: self.format, faces: self.faces, bias }
     }
 
@@ -160,6 +165,8 @@ pub struct MapRun {
     pub depths: Vec<f32>,
     /// The share of light that reaches each pixel.
     pub lit: Vec<f32>,
+    /// The share of the compared pixels where virtual samples decided; nothing with a filter that has none.
+    pub used_plane: Option<f64>,
     /// What was drawn.
     pub drawn: Drawn,
     /// What the bias was.
@@ -186,7 +193,7 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
         let shadows = shadow_test(stage.gpu, &stage.surfaces, &shadow_map, options.filter)?;
         Ok((shadow_map, shadows))
     };
-    let (shadow_map, Shadows { lit, time }) = frame()?;
+    let (shadow_map, Shadows { lit, used_plane, time }) = frame()?;
     let (mut shadow_map_times, mut shadow_test_times) = (vec![shadow_map.time], vec![time]);
     for _ in 1..options.frames {
         let (shadow_map, shadows) = frame()?;
@@ -214,7 +221,8 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
         shadow_test_ms: median_ms(shadow_test_times),
     };
     let drawn = fitted.drawn(stage.tracer.mesh());
-    Ok(Ok(MapRun { map, depths, lit, drawn, pass, times, verdict }))
+    let used_plane = matches!(options.filter, Filter::Virtual(_)).then(|| light.truth.share(&used_plane));
+    Ok(Ok(MapRun { map, depths, lit, used_plane, drawn, pass, times, verdict }))
 }
 
 /// Nothing where the card has no clock.

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use anyhow::{Result, ensure};
 use shadowfit::glam::{Mat4, Vec3};
-use shadowfit::{ClipSpace, DepthFormat, DepthRange, Map, YAxis};
+use shadowfit::{ClipSpace, Culling, DepthFormat, DepthRange, Map, YAxis};
 
 use super::pass::{Pass, PipelineKind, depth_state};
 use super::{Geometry, Gpu, read_back, shaders};
@@ -67,6 +67,7 @@ fn format_name<S: serde::Serializer>(format: &DepthFormat, serializer: S) -> Res
 pub struct ShadowMap {
     pub(super) view: wgpu::TextureView,
     pub(super) map: Map,
+    pub(super) format: DepthFormat,
     /// How long the card took, where it has a clock.
     pub time: Option<Duration>,
 }
@@ -115,38 +116,37 @@ impl ShadowMap {
             slope_scale: sign as f32 * options.bias.slope,
             clamp: 0.0,
         };
-        let pipeline = PipelineKind {
-            shader: shaders::SHADOW_MAP,
-            constants: &[],
-            takes_geometry: true,
-            primitive: wgpu::PrimitiveState {
-                // The meshes' fronts are counter-clockwise, and the crate's maps mirror nothing.
-                front_face: wgpu::FrontFace::Ccw,
-                cull_mode: match options.faces {
-                    Faces::All => None,
-                    Faces::Front => Some(wgpu::Face::Back),
-                    Faces::Back => Some(wgpu::Face::Front),
-                },
-                ..Default::default()
-            },
-            depth: Some(depth_state(format, compare, bias)),
-            targets: &[],
-        }
-        .build(gpu);
         let light = gpu.uniforms(&[map.matrix(), raster_from_clip(clip)]);
         let size = map.settings().map_size();
         let (_, view) = gpu.target([size, size], format);
-        let draws: Vec<Range<u32>> = casters.iter().map(Geometry::vertices_of).collect();
-        let pass = Pass {
-            pipeline: &pipeline,
-            bindings: &gpu.bindings(&pipeline, &[light.as_entire_binding()]),
-            colours: &[],
-            depth: Some((&view, if reversed { 0.0 } else { 1.0 })),
-            geometry: Some(geometry),
-            draws: &draws,
-        };
-        let time = pass.run(gpu)?;
-        Ok(Self { view, map: *map, time })
+        let mut clear = Some(if reversed { 0.0 } else { 1.0 });
+        let mut time = Some(Duration::ZERO);
+        for (cull_mode, draws) in batches(geometry, casters, options.faces) {
+            let pipeline = PipelineKind {
+                shader: shaders::SHADOW_MAP,
+                constants: &[],
+                takes_geometry: true,
+                // The meshes' fronts are counter-clockwise, and the crate's maps mirror nothing.
+                primitive: wgpu::PrimitiveState {
+                    front_face: wgpu::FrontFace::Ccw,
+                    cull_mode,
+                    ..Default::default()
+                },
+                depth: Some(depth_state(format, compare, bias)),
+                targets: &[],
+            }
+            .build(gpu);
+            let pass = Pass {
+                pipeline: &pipeline,
+                bindings: &gpu.bindings(&pipeline, &[light.as_entire_binding()]),
+                colours: &[],
+                depth: Some((&view, clear.take())),
+                geometry: Some(geometry),
+                draws: &draws,
+            };
+            time = time.zip(pass.run(gpu)?).map(|(sum, more)| sum + more);
+        }
+        Ok(Self { view, map: *map, format: options.format, time })
     }
 
     /// The depths as they are stored, row by row from the top of the map (y = 1 in wgpu's clip space).
@@ -159,6 +159,26 @@ impl ShadowMap {
             read_back::depths(gpu, &self.view, self.map.settings().map_size())
         })
     }
+}
+
+/// The vertices to draw with each kind of culling; at least one batch, though it may be empty, so that the map is cleared.
+fn batches(
+    geometry: &Geometry,
+    casters: &[Range<u32>],
+    faces: Faces,
+) -> Vec<(Option<wgpu::Face>, Vec<Range<u32>>)> {
+    let objects: Vec<_> = casters.iter().flat_map(|triangles| geometry.objects_in(triangles)).collect();
+    let kinds =
+        [(Culling::None, None), (Culling::Front, Some(wgpu::Face::Front)), (Culling::Back, Some(wgpu::Face::Back))];
+    let of = |(culling, cull_mode)| {
+        let drawn = objects.iter().filter(|(_, solidity)| faces.culling(*solidity) == culling);
+        (cull_mode, drawn.map(|(triangles, _)| Geometry::vertices_of(triangles)).collect::<Vec<_>>())
+    };
+    let mut batches = Vec::from(kinds.map(of));
+    batches.sort_by_key(|(_, draws)| draws.is_empty());
+    let needed = batches.iter().filter(|(_, draws)| !draws.is_empty()).count().max(1);
+    batches.truncate(needed);
+    batches
 }
 
 /// What the driver of another API does with its clip space: OpenGL's brings depth from −1…1 to 0…1, and where y points

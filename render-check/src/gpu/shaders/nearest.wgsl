@@ -1,6 +1,5 @@
 // The one texel that the place lies in.
 
-fn share_of_light(place: vec2<f32>, depth: f32) -> f32 {
-    let size = vec2<f32>(textureDimensions(shadow_map));
-    return passes(depth, vec2<i32>(floor(place * size)));
+fn share_of_light(pixel: vec2<u32>, projected: vec3<f32>) -> vec2<f32> {
+    return vec2(shadowfit_nearest(shadow_map, 0, projected, reversed), 0.0);
 }

@@ -1,5 +1,5 @@
-// The shadow test of every pixel. Needs `full_screen.wgsl` and one lookup, which answers
-// `share_of_light(place: vec2<f32>, depth: f32) -> f32`.
+// The shadow test of every pixel. Needs `full_screen.wgsl`, the crate's functions, and one lookup, which answers
+// `share_of_light(pixel: vec2<u32>, projected: vec3<f32>) -> vec2<f32>`: the share, and 1 where virtual samples decided.
 
 struct Receiver {
     // The matrix as the crate gives it.
@@ -15,20 +15,15 @@ struct Receiver {
 // Whether depth 1 is next to the light.
 override reversed: bool = false;
 
-@fragment
-fn fragment(@builtin(position) pixel: vec4<f32>) -> @location(0) f32 {
-    let surface = textureLoad(surfaces, vec2<u32>(pixel.xy), 0);
-    if (surface.w == 0.0) {
-        return 1.0;
-    }
-    let texture = receiver.sampled_from_texture * (receiver.texture_from_origin * surface);
-    // A receiver beyond the farthest caster compares with the value that the map was cleared to.
-    return share_of_light(texture.xy / texture.w, clamp(texture.z / texture.w, 0.0, 1.0));
+fn sampled_from_origin() -> mat4x4<f32> {
+    return receiver.sampled_from_texture * receiver.texture_from_origin;
 }
 
-// The comparison of one texel, the same as a comparison sampler's.
-fn passes(depth: f32, texel: vec2<i32>) -> f32 {
-    let last = vec2<i32>(textureDimensions(shadow_map)) - 1;
-    let stored = textureLoad(shadow_map, clamp(texel, vec2(0), last), 0);
-    return select(0.0, 1.0, select(depth <= stored, depth >= stored, reversed));
+@fragment
+fn fragment(@builtin(position) pixel: vec4<f32>) -> @location(0) vec2<f32> {
+    let surface = textureLoad(surfaces, vec2<u32>(pixel.xy), 0);
+    if (surface.w == 0.0) {
+        return vec2(1.0, 0.0);
+    }
+    return share_of_light(vec2<u32>(pixel.xy), shadowfit_project(sampled_from_origin(), surface.xyz));
 }
