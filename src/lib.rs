@@ -103,8 +103,13 @@ mod rays;
 mod refine;
 mod rounding;
 mod scene;
+#[cfg(feature = "std")]
+mod second_depth;
 mod settings;
+#[cfg(feature = "std")]
+mod solidity;
 mod view;
+mod virtual_sample;
 mod warp;
 #[cfg(feature = "wgsl")]
 pub mod wgsl;
@@ -127,5 +132,10 @@ pub use quality::{DepthFormat, Footprint};
 #[cfg(feature = "spade")]
 pub use refine::{Added, Refined, Refiner};
 pub use scene::{Aabb, ConvexScene, Scene};
+#[cfg(feature = "std")]
+pub use second_depth::{Culling, DepthTest};
 pub use settings::{Origin, Settings, Shift, Warp};
+#[cfg(feature = "std")]
+pub use solidity::{Sheet, Solidity, SolidityReport};
 pub use view::{FrustumPlanes, Lens, View};
+pub use virtual_sample::{LEAST_INCIDENCE, Rule, SUBTEXEL, Sampled, TangentPlane};

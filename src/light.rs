@@ -180,7 +180,7 @@ impl Light {
     pub(crate) const fn axis(&self) -> Option<DVec3> {
         match self.kind {
             Kind::Local { shape: Shape::Spot { axis, .. } | Shape::Hemisphere { axis }, .. } => Some(axis),
-            Kind::Directional { .. } | Kind::Local { shape: Shape::Point, .. } => None,
+            Kind::Directional { .. } | Kind::Local { shape: Shape::Point | Shape::CubeFace { .. }, .. } => None,
         }
     }
 

@@ -55,6 +55,7 @@ The table:
   missing     pixels lit because a caster was clipped or culled: must be none
   false       false shadow and false light, away from edges, in percent of what is compared
   edge        wrong within a texel's reach, or within a pixel, of the edge of a true shadow, in percent
+  virtual     pixels where texels disagreed and virtual samples decided, in percent
   worst       the largest cluster of wrong pixels that are no edge: how many, and where
   fit, map, test   times of the fit on the processor and of the card's passes, medians over --frames
 
@@ -201,11 +202,13 @@ pub struct MapArgs {
     #[arg(long, value_enum, default_value_t = FormatArg::Unorm24)]
     pub format: FormatArg,
 
-    /// Which sides of triangles are drawn into the map, as the light sees them
+    /// Which sides of triangles are drawn into the map, as the light sees them; second draws the far sides of solids and both
+    /// sides of sheets, and needs no bias
     #[arg(long, value_enum, default_value_t = Faces::All)]
     pub faces: Faces,
 
-    /// How the map is read: nearest, hardware (2 x 2, blended), or pcfN for the mean over N x N texels
+    /// How the map is read: nearest, hardware (2 x 2, blended), pcfN for the mean over N x N texels, or virtualN for the same
+    /// with virtual samples, which need no bias on planes
     #[arg(long, value_name = "FILTER", default_value_t = Filter::Nearest)]
     pub filter: Filter,
 
@@ -459,6 +462,14 @@ mod tests {
     }
 
     #[test]
+    fn depth_tests_are_described_by_words() {
+        let line = "render-check table --faces second --filter virtual3";
+        let map = Args::parse_from(line.split_whitespace()).check.map;
+        assert_eq!((map.faces, map.filter), (Faces::Second, Filter::Virtual(3)));
+        assert_eq!(map.filter.to_string(), "virtual3");
+    }
+
+    #[test]
     fn wrong_values_are_refused() {
         for wrong in [
             "--eye 1,2",
@@ -470,6 +481,7 @@ mod tests {
             "--light sun",
             "--filter pcf1",
             "--filter pcf",
+            "--filter virtual0",
             "--bias 3",
             "--bias 1,NaN",
             "--technique lispsm",

@@ -16,8 +16,9 @@ pub struct CheckTable {
     reasons: Vec<String>,
 }
 
-const COLUMNS: [&str; 11] =
-    ["map", "passes", "drawn", "aliasing", "missing", "false", "edge", "worst", "fit", "map pass", "test"];
+const COLUMNS: [&str; 12] = [
+    "map", "passes", "drawn", "aliasing", "missing", "false", "edge", "virtual", "worst", "fit", "map pass", "test",
+];
 
 impl CheckTable {
     /// No rows yet.
@@ -42,6 +43,7 @@ impl CheckTable {
             counts.missing.to_string(),
             format!("{}, {}", share(counts.false_shadow), share(counts.false_light)),
             share(counts.edges()),
+            run.used_plane.map_or_else(|| "-".into(), percent),
             run.verdict.worst_cluster.as_ref().map_or_else(|| "-".into(), place),
             format!("{:.1} µs", run.times.fit_us),
             milliseconds(run.times.shadow_map_ms),

@@ -89,6 +89,8 @@ pub struct MapsReport {
     pub maps: Vec<MapReport>,
     /// What was drawn into them.
     pub drawn: Drawn,
+    /// The share of the compared pixels where virtual samples decided; nothing with a filter that has none.
+    pub used_plane: Option<f64>,
     /// How long it took.
     pub times: Times,
     /// How they compare with the truth.
@@ -127,6 +129,7 @@ impl MapsReport {
             texels: run.depths.iter().map(|depths| depths.len() as u64).sum(),
             maps,
             drawn: run.drawn,
+            used_plane: run.used_plane,
             times: run.times,
             verdict: run.verdict.clone(),
         }

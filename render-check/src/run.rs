@@ -53,15 +53,16 @@ impl Options {
         }
     }
 
-    /// How a map is drawn.
+    /// How a map is drawn: without a bias for second depth and virtual samples, which do without.
     ///
     /// # Errors
     ///
     /// When the filter reaches nowhere.
     pub fn pass(&self, map: &Map) -> Result<MapPass> {
-        let (bias, receiver) = match self.bias {
-            Some(bias) => (bias, 0.0),
-            None => {
+        let (bias, receiver) = match (self.bias, self.faces, self.filter) {
+            (Some(bias), ..) => (bias, 0.0),
+            (None, Faces::Second, _) | (None, _, Filter::Virtual(_)) => (Bias::NONE, 0.0),
+            _ => {
                 let enough = map.bias(self.format, self.filter.reach()).context("there is no such filter")?;
                 (Bias { constant: enough.constant, slope: enough.slope }, enough.receiver)
             }
@@ -108,6 +109,8 @@ pub struct MapRun {
     pub depths: Vec<Vec<f32>>,
     /// The share of light that reaches each pixel.
     pub lit: Vec<f32>,
+    /// The share of the compared pixels where virtual samples decided; nothing with a filter that has none.
+    pub used_plane: Option<f64>,
     /// What was drawn.
     pub drawn: Drawn,
     /// How long it took.
@@ -140,7 +143,7 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
         let shadows = shadow_test(stage.gpu, &stage.surfaces, &shadow_maps, options.filter)?;
         Ok((shadow_maps, shadows))
     };
-    let (shadow_maps, Shadows { lit, time }) = frame()?;
+    let (shadow_maps, Shadows { lit, used_plane, time }) = frame()?;
     let (mut shadow_map_times, mut shadow_test_times) = (vec![shadow_maps.time], vec![time]);
     for _ in 1..options.frames {
         let (shadow_maps, shadows) = frame()?;
@@ -166,7 +169,8 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
         shadow_test_ms: median_ms(shadow_test_times),
     };
     let drawn = fitted.drawn(stage.tracer.mesh());
-    Ok(Ok(MapRun { fitted, depths, lit, drawn, times, verdict }))
+    let used_plane = matches!(options.filter, Filter::Virtual(_)).then(|| light.truth.share(&used_plane));
+    Ok(Ok(MapRun { fitted, depths, lit, used_plane, drawn, times, verdict }))
 }
 
 /// Holds what was drawn against the truth.

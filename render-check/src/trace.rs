@@ -5,6 +5,7 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::query::{Ray as ParryRay, RayCast, RayCullingMode};
 use parry3d_f64::shape::TriMesh;
 use shadowfit::glam::DVec3;
+use shadowfit::{Culling, DepthTest, Solidity};
 
 use crate::scene::Mesh;
 
@@ -30,6 +31,21 @@ pub enum Faces {
     Front,
     /// Only the backs.
     Back,
+    /// The far sides of solids, and both sides of sheets: second depth
+    Second,
+}
+
+impl Faces {
+    /// What a map leaves out of an object.
+    #[must_use]
+    pub fn culling(self, solidity: Solidity) -> Culling {
+        match self {
+            Self::All => DepthTest::First.culling(solidity),
+            Self::Front => Culling::Back,
+            Self::Back => Culling::Front,
+            Self::Second => DepthTest::Second.culling(solidity),
+        }
+    }
 }
 
 /// Where a ray first meets the scene.
@@ -114,16 +130,23 @@ impl<'a> Tracer<'a> {
         self.first_hit_of(ray, Faces::All)
     }
 
-    /// The first triangle along the ray that shows it one of these sides.
+    /// The first triangle along the ray that shows it one of these sides. Of second depth it finds backs only: where an
+    /// object that is drawn otherwise is in the way, it may say that there is nothing.
     #[must_use]
     pub fn first_hit_of(&self, ray: &Ray, faces: Faces) -> Option<Hit> {
         let culled = |mode| self.tree.cast_local_ray_with_culling(&ray_to_parry(ray), ray.length, mode);
         let found = match faces {
             Faces::All => self.tree.cast_local_ray_and_get_normal(&ray_to_parry(ray), ray.length, false),
             Faces::Front => culled(RayCullingMode::IgnoreBackfaces),
-            Faces::Back => culled(RayCullingMode::IgnoreFrontfaces),
+            // Backs, which are drawn of all objects but those inside out.
+            Faces::Back | Faces::Second => culled(RayCullingMode::IgnoreFrontfaces),
         }?;
-        Some(Hit::along(ray, found.time_of_impact, self.mesh, found.subshape as usize))
+        let hit = Hit::along(ray, found.time_of_impact, self.mesh, found.subshape as usize);
+        let is_drawn = |triangle| {
+            let object = self.mesh.object_of(triangle);
+            faces != Faces::Second || object.is_none_or(|object| object.solidity != Solidity::InsideOut)
+        };
+        is_drawn(hit.triangle).then_some(hit)
     }
 
     /// Whether the ray meets any triangle, from either side.

@@ -300,3 +300,77 @@ fn a_caster_that_is_not_drawn_is_found_missing() {
     let lost = counts.missing + counts.edges();
     assert!(counts.missing > 500 && counts.missing > 9 * counts.false_light, "{counts:?}, {lost} lost");
 }
+
+/// Of the pixels that are truly in shadow, edges included, the share that is lit.
+fn lit_in_shadow(light: &StageLight, run: &MapRun) -> f64 {
+    let pixels = light.truth.pixels().iter().zip(&run.lit);
+    let lit = pixels.filter(|(pixel, lit)| **lit >= 0.5 && pixel.compared().is_some_and(|(_, lit)| !lit)).count();
+    lit as f64 / light.truth.shadowed() as f64
+}
+
+/// Wang & Molnar's Fig. 12, with figures: a table that stands on a floor, at three sizes of map. What second depth is for:
+/// no bias, no acne, and no shadow that leaves what casts it.
+#[test]
+fn solids_need_no_bias_in_second_depth() {
+    let scene = scene::load(Path::new("table")).expect("built in");
+    let view = scene.camera.expect("it has one").view(1.6, 1.0, 8.0).expect("sound");
+    let (gpu, tracer) = (gpu(), Tracer::new(&scene.mesh).expect("it has triangles"));
+    let stage = Stage::new(&gpu, &tracer, &view, [480, 300]).expect("drawn");
+    for (spec, size) in scene.lights.iter().flat_map(|spec| [512, 256, 128].map(|size| (spec, size))) {
+        let light = stage.light(*spec).expect("sound");
+        let of = |faces, filter, bias| {
+            let options = Options { faces, filter, bias, ..Options::new(Technique::Uniform, size) };
+            run(&stage, &light, &options).expect("drawn").unwrap_or_else(|none| panic!("{none}"))
+        };
+        let faults = |run: &MapRun| run.verdict.counts.fraction(run.verdict.counts.faults());
+        let lit_in_shadow = |run: &MapRun| lit_in_shadow(&light, run);
+        let case = format!("{spec}, {size}");
+
+        // The first surface without a bias: acne on all that is lit.
+        let unbiased = of(Faces::All, Filter::Nearest, Some(Bias::NONE));
+        assert!(faults(&unbiased) > 0.25, "{case}: {}", faults(&unbiased));
+        // With one: no acne, but light where shadows should begin, the more the wider the filter is.
+        let biased = [Filter::Nearest, Filter::PercentageCloser(5)].map(|filter| of(Faces::All, filter, None));
+        let second = [Filter::Nearest, Filter::PercentageCloser(5)].map(|filter| of(Faces::Second, filter, None));
+        assert_eq!(second[0].fitted.maps[0].as_ref().map(|map| map.pass.bias), Some(Bias::NONE));
+        // Without any bias, texels that straddle an edge of a solid are all that is wrong with the second surface.
+        assert!(
+            faults(&second[0]) < 1e-3 && faults(&second[1]) < 1e-4,
+            "{case}: {:?}",
+            second.each_ref().map(faults)
+        );
+        assert!(lit_in_shadow(&second[1]) < 0.9 * lit_in_shadow(&biased[1]), "{case}");
+        // With virtual samples not even they are, and shadows begin where they should.
+        let sampled = of(Faces::Second, Filter::Virtual(2), None);
+        assert!(faults(&sampled) < 1e-4, "{case}: {}", faults(&sampled));
+        assert!(lit_in_shadow(&sampled) < lit_in_shadow(&biased[0]), "{case}");
+        // They are asked for along edges; on the first surface, whose own depths are stored, nearly everywhere.
+        let first_sampled = of(Faces::All, Filter::Virtual(2), None);
+        assert!(faults(&first_sampled) < 1e-4, "{case}: {}", faults(&first_sampled));
+        let [along_edges, everywhere] = [&sampled, &first_sampled].map(|run| run.used_plane.expect("asked for"));
+        assert!(along_edges < 0.17 && everywhere > 0.5, "{case}: {along_edges}, {everywhere}");
+    }
+}
+
+/// Sheets hold their own depths in second depth too: virtual samples are what keeps a flat one from shadowing itself.
+#[test]
+fn flat_sheets_need_virtual_samples_and_no_bias() {
+    for name in ["ground", "leaves"] {
+        let scene = scene::load(Path::new(name)).expect("built in");
+        let view = scene.camera.expect("it has one").view(1.6, 1.0, 45.0).expect("sound");
+        let (gpu, tracer) = (gpu(), Tracer::new(&scene.mesh).expect("it has triangles"));
+        let stage = Stage::new(&gpu, &tracer, &view, IMAGE).expect("drawn");
+        for (spec, technique) in scene.lights.iter().flat_map(|spec| Technique::COMPARED.map(|way| (spec, way))) {
+            let light = stage.light(*spec).expect("sound");
+            let false_shadow = |filter| {
+                let options = Options { faces: Faces::Second, filter, ..Options::new(technique, 512) };
+                let run = run(&stage, &light, &options).expect("drawn").unwrap_or_else(|none| panic!("{none}"));
+                let bias = run.fitted.maps[0].as_ref().map(|map| map.pass.bias);
+                assert_eq!((bias, run.verdict.counts.missing), (Some(Bias::NONE), 0));
+                run.verdict.counts.fraction(run.verdict.counts.false_shadow)
+            };
+            let [nearest, sampled] = [Filter::Nearest, Filter::Virtual(2)].map(false_shadow);
+            assert!(nearest > 5e-4 && sampled < 1e-4, "{name}, {spec}, {technique}: {nearest}, {sampled}");
+        }
+    }
+}

@@ -4,6 +4,10 @@
 //! them. What they need they take as arguments: matrices as this crate gives them, textures, samplers. All names begin
 //! with `shadowfit_`.
 
+mod frustum;
+
+pub use frustum::{FILTERS, MAP, MAP_ARRAY, PROJECT, VIRTUAL_SAMPLES};
+
 /// Paraboloid maps: `shadowfit_paraboloid_clip` for the vertices of casters, `shadowfit_paraboloid_texture` for what reads
 /// the map. See [`Paraboloid`](crate::Paraboloid).
 pub const PARABOLOID: &str = include_str!("paraboloid.wgsl");

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use anyhow::{Result, ensure};
+use shadowfit::Solidity;
 use shadowfit::glam::DVec3;
 use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
 
@@ -12,6 +13,9 @@ use crate::scene::Mesh;
 /// The triangles of a mesh in f32, three vertices each, so that the number of a vertex tells its triangle.
 pub struct Geometry {
     pub(super) buffer: wgpu::Buffer,
+    /// The unit normal of each triangle's front, four floats each.
+    pub(super) normals: wgpu::Buffer,
+    objects: Vec<(Range<u32>, Solidity)>,
     vertex_count: u32,
     origin: DVec3,
 }
@@ -42,7 +46,15 @@ impl Geometry {
         let buffer = gpu.guarded("the triangles", || {
             Ok(gpu.device.create_buffer_init(&BufferInitDescriptor { label: None, contents, usage }))
         })?;
-        Ok(Self { buffer, vertex_count: 3 * mesh.triangles.len() as u32, origin })
+        let normals = (0..mesh.triangles.len()).map(|triangle| mesh.face_normal(triangle).as_vec3().extend(0.0));
+        let normals: Vec<f32> = normals.flat_map(|normal| normal.to_array()).collect();
+        let contents: &[u8] = bytemuck::cast_slice(&normals);
+        let usage = wgpu::BufferUsages::STORAGE;
+        let normals = gpu.guarded("the triangles' normals", || {
+            Ok(gpu.device.create_buffer_init(&BufferInitDescriptor { label: None, contents, usage }))
+        })?;
+        let objects = mesh.objects.iter().map(|object| (object.triangles.clone(), object.solidity)).collect();
+        Ok(Self { buffer, normals, objects, vertex_count: 3 * mesh.triangles.len() as u32, origin })
     }
 
     /// What positions on the card are relative to, in world space.
@@ -54,6 +66,14 @@ impl Geometry {
     /// All vertices.
     pub(super) fn vertices(&self) -> Range<u32> {
         0..self.vertex_count
+    }
+
+    /// The pieces of a range of triangles that are of one object each, and what the object is.
+    pub(super) fn objects_in(&self, triangles: &Range<u32>) -> impl Iterator<Item = (Range<u32>, Solidity)> {
+        let pieces = self.objects.iter().map(|(object, solidity)| {
+            (object.start.max(triangles.start)..object.end.min(triangles.end), *solidity)
+        });
+        pieces.filter(|(piece, _)| !piece.is_empty())
     }
 
     /// The vertices of a range of triangles.

@@ -75,8 +75,8 @@ pub(super) struct Pass<'a> {
     pub(super) pipeline: &'a wgpu::RenderPipeline,
     pub(super) bindings: &'a wgpu::BindGroup,
     pub(super) colours: &'a [&'a wgpu::TextureView],
-    /// The depth buffer and what it is cleared to.
-    pub(super) depth: Option<(&'a wgpu::TextureView, f32)>,
+    /// The depth buffer and what it is cleared to; none to keep what it holds.
+    pub(super) depth: Option<(&'a wgpu::TextureView, Option<f32>)>,
     /// The vertices to draw from; none for the triangle that covers the target.
     pub(super) geometry: Option<&'a Geometry>,
     pub(super) draws: &'a [Range<u32>],
@@ -94,7 +94,7 @@ impl Pass<'_> {
                 depth_stencil_attachment: self.depth.map(|(view, clear)| wgpu::RenderPassDepthStencilAttachment {
                     view,
                     depth_ops: Some(wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(clear),
+                        load: clear.map_or(wgpu::LoadOp::Load, wgpu::LoadOp::Clear),
                         store: wgpu::StoreOp::Store,
                     }),
                     stencil_ops: None,

@@ -1,4 +1,6 @@
-//! The shaders, put together from small files: what they share is there once.
+//! The shaders, put together from small files and the crate's functions: what they share is there once.
+
+use shadowfit::wgsl;
 
 /// What the camera sees; vertices in, positions and triangles out.
 pub(super) const SURFACES: &str = include_str!("shaders/surfaces.wgsl");
@@ -11,23 +13,34 @@ pub(super) const COPY_DEPTH: &str =
     concat!(include_str!("shaders/full_screen.wgsl"), include_str!("shaders/copy_depth.wgsl"));
 
 /// The shadow test with each lookup.
-pub(super) const NEAREST: &str = shadow_test!("shaders/nearest.wgsl");
-/// See [`NEAREST`].
-pub(super) const HARDWARE: &str = shadow_test!("shaders/hardware.wgsl");
-/// See [`NEAREST`].
-pub(super) const PERCENTAGE_CLOSER: &str = shadow_test!("shaders/percentage_closer.wgsl");
-
-macro_rules! shadow_test {
-    ($lookup:literal) => {
-        concat!(
-            include_str!("shaders/full_screen.wgsl"),
-            include_str!("shaders/shadow_test.wgsl"),
-            include_str!("shaders/frustum.wgsl"),
-            include_str!($lookup)
-        )
-    };
+pub(super) fn nearest() -> String {
+    shadow_test(include_str!("shaders/nearest.wgsl"))
 }
-use shadow_test;
+
+/// See [`nearest`].
+pub(super) fn hardware() -> String {
+    shadow_test(include_str!("shaders/hardware.wgsl"))
+}
+
+/// See [`nearest`].
+pub(super) fn percentage_closer() -> String {
+    shadow_test(include_str!("shaders/percentage_closer.wgsl"))
+}
+
+/// See [`nearest`].
+pub(super) fn virtual_samples() -> String {
+    shadow_test(include_str!("shaders/virtual_samples.wgsl"))
+}
+
+fn shadow_test(lookup: &str) -> String {
+    let own = [
+        include_str!("shaders/full_screen.wgsl"),
+        include_str!("shaders/shadow_test.wgsl"),
+        include_str!("shaders/frustum.wgsl"),
+        lookup,
+    ];
+    [wgsl::PROJECT, wgsl::MAP_ARRAY, wgsl::FILTERS, wgsl::VIRTUAL_SAMPLES].into_iter().chain(own).collect()
+}
 
 #[cfg(test)]
 mod tests {
@@ -42,9 +55,10 @@ mod tests {
             ("surfaces", SURFACES),
             ("shadow map", SHADOW_MAP),
             ("copy depth", COPY_DEPTH),
-            ("nearest", NEAREST),
-            ("hardware", HARDWARE),
-            ("percentage closer", PERCENTAGE_CLOSER),
+            ("nearest", &nearest()),
+            ("hardware", &hardware()),
+            ("percentage closer", &percentage_closer()),
+            ("virtual samples", &virtual_samples()),
         ] {
             let module = wgsl::parse_str(source).unwrap_or_else(|e| panic!("{name}: {}", e.emit_to_string(source)));
             let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());

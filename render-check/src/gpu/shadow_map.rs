@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, bail, ensure};
 use shadowfit::glam::{Mat4, Vec3, Vec4};
-use shadowfit::{ClipSpace, DepthFormat, DepthRange, Map, Offset, YAxis};
+use shadowfit::{ClipSpace, Culling, DepthFormat, DepthRange, Map, Offset, YAxis};
 
 use super::pass::{Pass, PipelineKind, depth_state};
 use super::{Geometry, Gpu, read_back, shaders};
@@ -64,6 +64,7 @@ pub struct ShadowMaps {
     layers: Vec<wgpu::TextureView>,
     /// The map in each layer, and what receivers are to be tested with.
     pub(super) maps: Vec<(Map, Offset)>,
+    pub(super) format: DepthFormat,
     /// The axis of each part of the light and, in w, its layer; −1 for a part without a map.
     pub(super) parts: Vec<Vec4>,
     /// The light's position, relative to the geometry's origin.
@@ -124,6 +125,7 @@ impl ShadowMaps {
                 view: view(wgpu::TextureViewDimension::D2Array, 0, drawn.len() as u32),
                 parts: parts.collect(),
                 layers,
+                format: first.pass.format,
                 maps: drawn.iter().map(|draw| receiver(draw)).collect::<Result<_>>()?,
                 light: (split.position() - geometry.origin()).as_vec3(),
                 time,
@@ -161,35 +163,51 @@ fn draw_layer(
         slope_scale: sign as f32 * draw.pass.bias.slope,
         clamp: 0.0,
     };
-    let pipeline = PipelineKind {
-        shader: shaders::SHADOW_MAP,
-        constants: &[],
-        takes_geometry: true,
-        primitive: wgpu::PrimitiveState {
-            // The meshes' fronts are counter-clockwise, and the crate's maps mirror nothing.
-            front_face: wgpu::FrontFace::Ccw,
-            cull_mode: match draw.pass.faces {
-                Faces::All => None,
-                Faces::Front => Some(wgpu::Face::Back),
-                Faces::Back => Some(wgpu::Face::Front),
-            },
-            ..Default::default()
-        },
-        depth: Some(depth_state(format, compare, bias)),
-        targets: &[],
-    }
-    .build(gpu);
     let light = gpu.uniforms(&[draw.map.matrix(), raster_from_clip(clip)]);
-    let draws: Vec<Range<u32>> = draw.casters.iter().map(Geometry::vertices_of).collect();
-    let pass = Pass {
-        pipeline: &pipeline,
-        bindings: &gpu.bindings(&pipeline, &[light.as_entire_binding()]),
-        colours: &[],
-        depth: Some((layer, if reversed { 0.0 } else { 1.0 })),
-        geometry: Some(geometry),
-        draws: &draws,
+    let mut clear = Some(if reversed { 0.0 } else { 1.0 });
+    let mut time = Some(Duration::ZERO);
+    for (cull_mode, draws) in batches(geometry, draw.casters, draw.pass.faces) {
+        let pipeline = PipelineKind {
+            shader: shaders::SHADOW_MAP,
+            constants: &[],
+            takes_geometry: true,
+            // The meshes' fronts are counter-clockwise, and the crate's maps mirror nothing.
+            primitive: wgpu::PrimitiveState { front_face: wgpu::FrontFace::Ccw, cull_mode, ..Default::default() },
+            depth: Some(depth_state(format, compare, bias)),
+            targets: &[],
+        }
+        .build(gpu);
+        let pass = Pass {
+            pipeline: &pipeline,
+            bindings: &gpu.bindings(&pipeline, &[light.as_entire_binding()]),
+            colours: &[],
+            depth: Some((layer, clear.take())),
+            geometry: Some(geometry),
+            draws: &draws,
+        };
+        time = time.zip(pass.run(gpu)?).map(|(sum, took)| sum + took);
+    }
+    Ok(time)
+}
+
+/// The vertices to draw with each kind of culling; at least one batch, though it may be empty, so that the map is cleared.
+fn batches(
+    geometry: &Geometry,
+    casters: &[Range<u32>],
+    faces: Faces,
+) -> Vec<(Option<wgpu::Face>, Vec<Range<u32>>)> {
+    let objects: Vec<_> = casters.iter().flat_map(|triangles| geometry.objects_in(triangles)).collect();
+    let kinds =
+        [(Culling::None, None), (Culling::Front, Some(wgpu::Face::Front)), (Culling::Back, Some(wgpu::Face::Back))];
+    let of = |(culling, cull_mode)| {
+        let drawn = objects.iter().filter(|(_, solidity)| faces.culling(*solidity) == culling);
+        (cull_mode, drawn.map(|(triangles, _)| Geometry::vertices_of(triangles)).collect::<Vec<_>>())
     };
-    pass.run(gpu)
+    let mut batches = Vec::from(kinds.map(of));
+    batches.sort_by_key(|(_, draws)| draws.is_empty());
+    let needed = batches.iter().filter(|(_, draws)| !draws.is_empty()).count().max(1);
+    batches.truncate(needed);
+    batches
 }
 
 /// What the driver of another API does with its clip space: OpenGL's brings depth from −1…1 to 0…1, and where y points

@@ -20,6 +20,9 @@ pub enum Filter {
     Hardware,
     /// The mean over so many texels across and down, each compared.
     PercentageCloser(u32),
+    /// So many texels across and down, each compared with the depth of the surface's own plane at its middle; two are
+    /// blended, of more it is the mean.
+    Virtual(u32),
 }
 
 impl Filter {
@@ -29,7 +32,7 @@ impl Filter {
         match self {
             Self::Nearest => 0.5,
             Self::Hardware => 1.0,
-            Self::PercentageCloser(taps) => 0.5 * f64::from(taps),
+            Self::PercentageCloser(taps) | Self::Virtual(taps) => 0.5 * f64::from(taps),
         }
     }
 }
@@ -41,11 +44,12 @@ impl fmt::Display for Filter {
             Self::Nearest => f.write_str("nearest"),
             Self::Hardware => f.write_str("hardware"),
             Self::PercentageCloser(taps) => write!(f, "pcf{taps}"),
+            Self::Virtual(taps) => write!(f, "virtual{taps}"),
         }
     }
 }
 
-/// The same word: `nearest`, `hardware`, or `pcfN` for N × N texels.
+/// The same word: `nearest`, `hardware`, or `pcfN` or `virtualN` for N × N texels.
 impl FromStr for Filter {
     type Err = String;
 
@@ -53,10 +57,17 @@ impl FromStr for Filter {
         match text {
             "nearest" => Ok(Self::Nearest),
             "hardware" => Ok(Self::Hardware),
-            _ => match text.strip_prefix("pcf").map(str::parse) {
-                Some(Ok(taps @ 2..=15)) => Ok(Self::PercentageCloser(taps)),
-                _ => Err("write nearest, hardware, or pcfN with N from 2 to 15".into()),
-            },
+            _ => {
+                let taps = |word| text.strip_prefix(word).and_then(|taps| taps.parse().ok());
+                match (taps("pcf"), taps("virtual")) {
+                    (Some(taps @ 2..=15), _) => Ok(Self::PercentageCloser(taps)),
+                    (_, Some(taps @ 1..=15)) => Ok(Self::Virtual(taps)),
+                    _ => {
+                        Err("write nearest, hardware, pcfN with N from 2 to 15, or virtualN with N from 1 to 15"
+                            .into())
+                    }
+                }
+            }
         }
     }
 }
@@ -71,6 +82,8 @@ impl serde::Serialize for Filter {
 pub struct Shadows {
     /// The share of light that reaches each pixel, row by row from the top: 0 in shadow, 1 in light or in the sky.
     pub lit: Vec<f32>,
+    /// Where virtual samples decided, as the texels disagreed.
+    pub used_plane: Vec<bool>,
     /// How long the card took, where it has a clock.
     pub time: Option<Duration>,
 }
@@ -94,9 +107,10 @@ fn shadow_test_unguarded(
     // The layers of a texture are alike in this.
     let reversed = shadow_maps.maps.iter().any(|(map, _)| map.settings().clip().depth.is_reversed());
     let (shader, taps) = match filter {
-        Filter::Nearest => (shaders::NEAREST, None),
-        Filter::Hardware => (shaders::HARDWARE, None),
-        Filter::PercentageCloser(taps) => (shaders::PERCENTAGE_CLOSER, Some(("taps", f64::from(taps)))),
+        Filter::Nearest => (shaders::nearest(), None),
+        Filter::Hardware => (shaders::hardware(), None),
+        Filter::PercentageCloser(taps) => (shaders::percentage_closer(), Some(("taps", f64::from(taps)))),
+        Filter::Virtual(taps) => (shaders::virtual_samples(), Some(("taps", f64::from(taps)))),
     };
     let mut constants = vec![];
     // The hardware's comparison is the sampler's own.
@@ -104,9 +118,9 @@ fn shadow_test_unguarded(
         constants.push(("reversed", f64::from(u8::from(reversed))));
     }
     constants.extend(taps);
-    let format = wgpu::TextureFormat::R32Float;
+    let format = wgpu::TextureFormat::Rg32Float;
     let pipeline = PipelineKind {
-        shader,
+        shader: &shader,
         constants: &constants,
         takes_geometry: false,
         primitive: wgpu::PrimitiveState::default(),
@@ -117,10 +131,12 @@ fn shadow_test_unguarded(
 
     let split = [shadow_maps.light.extend(0.0)].into_iter().chain(shadow_maps.parts.iter().copied());
     let split = gpu.storage(split.flat_map(|row| row.to_array()));
-    let matrices = |(map, receiver): &(Map, Offset)| {
-        [map.texture_matrix_with(receiver), sampled_from_texture(map.settings().clip())]
+    let layer = |(map, receiver): &(Map, Offset)| {
+        let matrices = [map.texture_matrix_with(receiver), sampled_from_texture(map.settings().clip())];
+        let tolerance = map.comparison_tolerance(shadow_maps.format) as f32;
+        matrices.into_iter().flat_map(|matrix| matrix.to_cols_array()).chain([tolerance, 0.0, 0.0, 0.0])
     };
-    let layers = gpu.storage(shadow_maps.maps.iter().flat_map(matrices).flat_map(|matrix| matrix.to_cols_array()));
+    let layers = gpu.storage(shadow_maps.maps.iter().flat_map(layer));
     let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
         mag_filter: wgpu::FilterMode::Linear,
         min_filter: wgpu::FilterMode::Linear,
@@ -136,8 +152,11 @@ fn shadow_test_unguarded(
         split.as_entire_binding(),
         layers.as_entire_binding(),
     ];
-    if filter == Filter::Hardware {
-        resources.push(wgpu::BindingResource::Sampler(&sampler));
+    match filter {
+        Filter::Nearest | Filter::PercentageCloser(_) => {}
+        Filter::Hardware => resources.push(wgpu::BindingResource::Sampler(&sampler)),
+        Filter::Virtual(_) => resources
+            .extend([wgpu::BindingResource::TextureView(&surfaces.numbers), surfaces.normals.as_entire_binding()]),
     }
     let (lit, lit_view) = gpu.target(surfaces.size, format);
     let pass = Pass {
@@ -149,7 +168,9 @@ fn shadow_test_unguarded(
         draws: &[FULL_SCREEN],
     };
     let time = pass.run(gpu)?;
-    Ok(Shadows { lit: read_back::texels(gpu, &lit)?, time })
+    let texels: Vec<[f32; 2]> = read_back::texels(gpu, &lit)?;
+    let (lit, used_plane) = texels.into_iter().map(|[lit, used_plane]| (lit, used_plane > 0.0)).unzip();
+    Ok(Shadows { lit, used_plane, time })
 }
 
 /// From an API that counts texture rows from the bottom to wgpu, which counts them from the top: there the same row of

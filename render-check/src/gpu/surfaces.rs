@@ -14,6 +14,10 @@ use super::{Geometry, Gpu, read_back, shaders};
 pub struct Surfaces {
     pub(super) size: [u32; 2],
     pub(super) positions: wgpu::TextureView,
+    /// The triangle of each pixel, counted from 1; 0 where there is none.
+    pub(super) numbers: wgpu::TextureView,
+    /// The triangles' normals.
+    pub(super) normals: wgpu::Buffer,
     /// The triangle of each pixel, row by row from the top; [`Surfaces::SKY`] where there is none.
     pub triangles: Vec<u32>,
     /// How long the card took, where it has a clock.
@@ -54,7 +58,7 @@ impl Surfaces {
             pipeline: &pipeline,
             bindings: &gpu.bindings(&pipeline, &[camera.as_entire_binding()]),
             colours: &[&positions, &triangles_view],
-            depth: Some((&depth, 0.0)),
+            depth: Some((&depth, Some(0.0))),
             geometry: Some(geometry),
             draws: &[geometry.vertices()],
         };
@@ -62,7 +66,7 @@ impl Surfaces {
         // Pixels that nothing was drawn to hold zeros, as triangle 0 does: numbers on the card are one higher.
         let numbers: Vec<u32> = read_back::texels(gpu, &triangles)?;
         let triangles = numbers.into_iter().map(|number| number.wrapping_sub(1)).collect();
-        Ok(Self { size, positions, triangles, time })
+        Ok(Self { size, positions, numbers: triangles_view, normals: geometry.normals.clone(), triangles, time })
     }
 }
 

@@ -1,7 +1,7 @@
 //! What the card draws, against rays.
 
 use shadowfit::glam::DVec3;
-use shadowfit::{ClipSpace, DepthFormat, Light, Map, Origin, Scene, Settings, View, fit};
+use shadowfit::{ClipSpace, DepthFormat, Light, Map, Origin, Rule, Scene, Settings, TangentPlane, View, fit};
 
 use super::*;
 use crate::picture::{DepthMap, Lens};
@@ -153,6 +153,44 @@ fn each_part_of_a_light_has_its_layer() {
     let coarse = MapPass { format: DepthFormat::Unorm16, ..pass };
     let mixed = [Some(full), Some(MapDraw { pass: coarse, ..full }), None, None, None, None];
     assert!(refusal(&mixed).contains("differ"));
+}
+
+#[test]
+fn virtual_samples_on_the_card_are_those_of_the_crate() {
+    for clip in [ClipSpace::WGPU, ClipSpace::VULKAN.reversed()] {
+        let stage = stage(clip);
+        let (geometry, shadow_maps) = draw_all(&stage, DepthFormat::Float32, Bias::NONE);
+        let surfaces = Surfaces::draw(&stage.gpu, &geometry, &stage.view, IMAGE).expect("drawn");
+        let depths = shadow_maps.depths(&stage.gpu).expect("readable").remove(0);
+        let tolerance = stage.map.comparison_tolerance(DepthFormat::Float32);
+        let lens = Lens::of_view(&stage.view).expect("invertible");
+        let tracer = Tracer::new(&stage.mesh).expect("it has triangles");
+        let stored = |x: u32, y: u32| f64::from(depths[(y * MAP + x) as usize]);
+        for taps in [2, 3] {
+            let Shadows { lit, used_plane, .. } =
+                shadow_test(&stage.gpu, &surfaces, &shadow_maps, Filter::Virtual(taps)).expect("tested");
+            let (mut compared, mut same, mut of_plane) = (0, 0, 0);
+            for (i, &triangle) in surfaces.triangles.iter().enumerate() {
+                let ray = lens.ray_through_pixel(i as u32 % IMAGE[0], i as u32 / IMAGE[0], IMAGE[0], IMAGE[1]);
+                let hit = ray.and_then(|ray| tracer.first_hit(&ray)).filter(|hit| hit.triangle as u32 == triangle);
+                let Some(plane) = hit.and_then(|hit| TangentPlane::new(&stage.map, hit.point, hit.face_normal))
+                else {
+                    continue;
+                };
+                let expected = match taps {
+                    2 => plane.blended(tolerance, stored),
+                    _ => plane.mean(taps, tolerance, stored),
+                };
+                let is_alike = (expected.share - f64::from(lit[i])).abs() < 0.01;
+                compared += 1;
+                same += usize::from(is_alike && used_plane[i] == (expected.rule == Rule::VirtualSamples));
+                of_plane += usize::from(used_plane[i]);
+            }
+            // Faces turned away from the light, whose planes it grazes, may go either way.
+            assert!(same * 50 >= compared * 49, "{same} of {compared} pixels, {taps} taps, {clip:?}");
+            assert!(of_plane * 2 > compared, "{of_plane} of {compared}");
+        }
+    }
 }
 
 #[test]

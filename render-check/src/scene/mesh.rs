@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use shadowfit::Solidity;
 use shadowfit::glam::{DMat3, DMat4, DVec3, Vec3};
 
 use super::LeftOut;
@@ -30,6 +31,8 @@ pub struct Object {
     pub min: DVec3,
     /// The greatest.
     pub max: DVec3,
+    /// Whether it is a solid.
+    pub solidity: Solidity,
 }
 
 impl Mesh {
@@ -64,6 +67,13 @@ impl Mesh {
     #[must_use]
     pub fn bounds(&self) -> (DVec3, DVec3) {
         self.bounds_of(0..self.triangles.len())
+    }
+
+    /// The object that a triangle belongs to.
+    #[must_use]
+    pub fn object_of(&self, triangle: usize) -> Option<&Object> {
+        let after = self.objects.partition_point(|object| object.triangles.start as usize <= triangle);
+        self.objects[..after].last().filter(|object| triangle < object.triangles.end as usize)
     }
 
     fn bounds_of(&self, triangles: Range<usize>) -> (DVec3, DVec3) {
@@ -115,12 +125,15 @@ impl MeshBuilder {
         );
         self.mesh.normals.resize(self.mesh.vertices.len(), Vec3::ZERO);
 
+        // Triangles without area are of no use but for closing cracks.
+        let mut all_of_part = Vec::new();
         for triangle in part.triangles {
             let mut corners = triangle.map(|i| first + i);
             // A mirroring node turns the winding round; the front must stay the front.
             if mirrored {
                 corners.swap(1, 2);
             }
+            all_of_part.push(corners);
             let [a, b, c] = corners.map(|i| self.mesh.vertices[i as usize]);
             if !(a.is_finite() && b.is_finite() && c.is_finite()) {
                 self.left_out.not_finite += 1;
@@ -134,7 +147,10 @@ impl MeshBuilder {
         if first_triangle < self.mesh.triangles.len() {
             let (min, max) = self.mesh.bounds_of(first_triangle..self.mesh.triangles.len());
             let triangles = first_triangle as u32..self.mesh.triangles.len() as u32;
-            self.mesh.objects.push(Object { triangles, min, max });
+            // What cannot be told is drawn as a sheet is: from both sides.
+            let report = Solidity::of(&self.mesh.vertices, &all_of_part);
+            let solidity = report.map_or(Solidity::Open, |report| report.solidity);
+            self.mesh.objects.push(Object { triangles, min, max, solidity });
         }
     }
 

@@ -4,6 +4,7 @@ use anyhow::{Result, bail, ensure};
 use rayon::prelude::*;
 use shadowfit::View;
 
+use super::report::share;
 use super::source::Source;
 use super::surface::{PixelRays, Surface};
 use crate::gpu::Surfaces;
@@ -141,6 +142,13 @@ impl TruthImage {
     #[must_use]
     pub fn compared(&self) -> usize {
         self.pixels.iter().filter_map(Truth::compared).count()
+    }
+
+    /// The share of the compared pixels for which something is so, 0 to 1; `is_so` has an entry for each pixel.
+    #[must_use]
+    pub fn share(&self, is_so: &[bool]) -> f64 {
+        let compared = self.pixels.iter().zip(is_so).filter(|(pixel, _)| pixel.compared().is_some());
+        share(compared.filter(|&(_, &is_so)| is_so).count(), self.compared())
     }
 
     /// How many of them are in shadow.

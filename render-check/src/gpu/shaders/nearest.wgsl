@@ -1,6 +1,5 @@
 // The one texel that the place lies in.
 
-fn share_of_light(layer: i32, place: vec2<f32>, depth: f32) -> f32 {
-    let size = vec2<f32>(textureDimensions(shadow_maps));
-    return passes(layer, depth, vec2<i32>(floor(place * size)));
+fn share_of_light(layer: i32, pixel: vec2<u32>, projected: vec3<f32>) -> vec2<f32> {
+    return vec2(shadowfit_nearest(shadow_maps, layer, projected, reversed), 0.0);
 }

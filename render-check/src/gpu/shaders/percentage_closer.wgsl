@@ -2,15 +2,6 @@
 
 override taps: i32 = 3;
 
-fn share_of_light(layer: i32, place: vec2<f32>, depth: f32) -> f32 {
-    let size = vec2<f32>(textureDimensions(shadow_maps));
-    // The middle of an odd square is a texel, that of an even one a corner between texels.
-    let first = vec2<i32>(floor(place * size - 0.5 * f32(taps - 1)));
-    var sum = 0.0;
-    for (var y = 0; y < taps; y++) {
-        for (var x = 0; x < taps; x++) {
-            sum += passes(layer, depth, first + vec2(x, y));
-        }
-    }
-    return sum / f32(taps * taps);
+fn share_of_light(layer: i32, pixel: vec2<u32>, projected: vec3<f32>) -> vec2<f32> {
+    return vec2(shadowfit_percentage_closer(shadow_maps, layer, projected, taps, reversed), 0.0);
 }

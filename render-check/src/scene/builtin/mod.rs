@@ -7,6 +7,7 @@ mod leaves;
 mod room;
 mod solids;
 mod street;
+mod table;
 
 use super::LoadedScene;
 
@@ -22,7 +23,7 @@ pub struct BuiltIn {
 }
 
 /// All of them.
-pub const BUILT_IN: [BuiltIn; 6] = [
+pub const BUILT_IN: [BuiltIn; 7] = [
     BuiltIn {
         name: "chess-board",
         shows: "a long board with pieces from a low camera, as in the paper's Fig. 1",
@@ -47,6 +48,11 @@ pub const BUILT_IN: [BuiltIn; 6] = [
         name: "room",
         shows: "a room from inside, with a lamp above the view and the sun in the window",
         make: room::make,
+    },
+    BuiltIn {
+        name: "table",
+        shows: "a table with thin legs on a floor, all of it solid: where shadows leave what casts them",
+        make: table::make,
     },
     BuiltIn { name: "ground", shows: "a flat plate without any height and nothing on it", make: ground::make },
 ];

@@ -28,7 +28,8 @@ pub(super) fn add_turned(builder: &mut MeshBuilder, profile: &[DVec2], world_fro
         let first = positions.len() as u32;
         let end_normals = [blended(i, i.checked_sub(1).map(|j| &outward[j])), blended(i, outward.get(i + 1))];
         for side in 0..=SIDES {
-            let (sin, cos) = (TAU * f64::from(side) / f64::from(SIDES)).sin_cos();
+            // The last side ends exactly where the first began, or the solid would be open along a seam.
+            let (sin, cos) = (TAU * f64::from(side % SIDES) / f64::from(SIDES)).sin_cos();
             for (end, normal) in ends.iter().zip(end_normals) {
                 positions.push(DVec3::new(end.x * cos, end.y, end.x * sin));
                 normals.push(DVec3::new(normal.x * cos, normal.y, normal.x * sin).as_vec3());

@@ -1,6 +1,6 @@
 //! What holds for every built-in scene.
 
-use shadowfit::View;
+use shadowfit::{Solidity, View};
 
 use super::solids::open_edges;
 use super::*;
@@ -79,6 +79,8 @@ fn solids_are_closed_and_face_outwards_and_only_leaves_and_the_plate_are_open() 
             _ => 0,
         };
         assert_eq!(open.len(), sheets, "{}: {:?}", scene.name, open.first());
+        assert!(open.iter().all(|object| object.solidity == Solidity::Open), "{}", scene.name);
+        assert!(closed.iter().all(|object| object.solidity == Solidity::Solid), "{}", scene.name);
         for object in closed {
             let middle = 0.5 * (object.min + object.max);
             let corners = object.triangles.clone().map(|t| scene.mesh.corners(t as usize).map(|p| p - middle));

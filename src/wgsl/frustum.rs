@@ -1,0 +1,105 @@
+//! Functions that read frustum maps.
+
+/// Where a position lies in a map. The matrix is [`Map::texture_matrix`](crate::Map::texture_matrix).
+///
+/// ```wgsl
+/// fn shadowfit_project(texture_from_origin: mat4x4<f32>, position: vec3<f32>) -> vec3<f32>
+/// ```
+pub const PROJECT: &str = include_str!("project.wgsl");
+
+/// The type `shadowfit_Map` for maps in textures of their own, `texture_depth_2d`. A shader takes this or [`MAP_ARRAY`].
+///
+/// ```wgsl
+/// alias shadowfit_Map = texture_depth_2d;
+/// fn shadowfit_size(map: shadowfit_Map) -> vec2<i32>
+/// fn shadowfit_stored(map: shadowfit_Map, layer: i32, texel: vec2<i32>) -> f32
+/// fn shadowfit_compared(map: shadowfit_Map, layer: i32, compare: sampler_comparison, place: vec2<f32>, depth: f32) -> f32
+/// ```
+pub const MAP: &str = include_str!("map.wgsl");
+
+/// The same for maps in layers of a `texture_depth_2d_array`.
+pub const MAP_ARRAY: &str = include_str!("map_array.wgsl");
+
+/// The ordinary filters: the nearest texel, the sampler's 2 × 2, and N × N. They need a bias in the map, and [`MAP`] or
+/// [`MAP_ARRAY`] before them. `reversed` says whether the map's clip space is reversed
+/// ([`DepthRange::is_reversed`](crate::DepthRange::is_reversed)).
+///
+/// ```wgsl
+/// fn shadowfit_nearest(map: shadowfit_Map, layer: i32, projected: vec3<f32>, reversed: bool) -> f32
+/// fn shadowfit_hardware(map: shadowfit_Map, layer: i32, compare: sampler_comparison, projected: vec3<f32>) -> f32
+/// fn shadowfit_percentage_closer(
+///     map: shadowfit_Map, layer: i32, projected: vec3<f32>, taps: i32, reversed: bool,
+/// ) -> f32
+/// ```
+pub const FILTERS: &str = include_str!("filters.wgsl");
+
+/// The same with virtual samples ([`crate::TangentPlane`]), over 2 × 2 texels, blended, and over N × N: they need no bias
+/// on planes. They need [`FILTERS`] before them. `constant` is
+/// [`Map::comparison_tolerance`](crate::Map::comparison_tolerance); the normal is the triangle's, not a smooth one.
+///
+/// ```wgsl
+/// struct shadowfit_Sampled { share: f32, used_plane: bool }
+/// fn shadowfit_slopes(texture_from_origin: mat4x4<f32>, projected: vec3<f32>, normal: vec3<f32>) -> vec2<f32>
+/// fn shadowfit_virtual_blended(
+///     map: shadowfit_Map, layer: i32, projected: vec3<f32>, slopes: vec2<f32>, constant: f32, reversed: bool,
+/// ) -> shadowfit_Sampled
+/// fn shadowfit_virtual_mean(
+///     map: shadowfit_Map, layer: i32, projected: vec3<f32>, slopes: vec2<f32>, taps: i32, constant: f32, reversed: bool,
+/// ) -> shadowfit_Sampled
+/// ```
+pub const VIRTUAL_SAMPLES: &str = include_str!("virtual_samples.wgsl");
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use naga::front::wgsl;
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+    use std::format;
+
+    fn validated(source: &str) -> naga::Module {
+        let module = wgsl::parse_str(source).unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
+        let result = Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(&module);
+        assert!(result.is_ok(), "{}", result.unwrap_err().emit_to_string(source));
+        module
+    }
+
+    #[test]
+    fn the_functions_are_valid_and_theirs_are_the_only_names() {
+        for map in [MAP, MAP_ARRAY] {
+            let texts = [PROJECT, map, FILTERS, VIRTUAL_SAMPLES];
+            for count in 1..=texts.len() {
+                let text = texts[..count].concat();
+                let module = validated(&text);
+                assert!(module.global_variables.is_empty() && module.entry_points.is_empty());
+                let functions = module.functions.iter().filter_map(|(_, function)| function.name.as_ref());
+                let types = module.types.iter().filter_map(|(_, of)| of.name.as_ref());
+                assert!(functions.chain(types).all(|name| name.starts_with("shadowfit_")));
+                // Naga does not look for uniform control flow, which a bare `textureSampleCompare` needs.
+                assert!(!text.contains("textureSampleCompare("));
+            }
+        }
+    }
+
+    #[test]
+    fn a_shader_can_call_them_on_a_texture_and_on_an_array() {
+        let shader = "
+            @group(0) @binding(1) var compare: sampler_comparison;
+            @group(0) @binding(2) var<uniform> texture_from_origin: mat4x4<f32>;
+
+            @fragment
+            fn fragment(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> @location(0) vec4<f32> {
+                let projected = shadowfit_project(texture_from_origin, position);
+                let slopes = shadowfit_slopes(texture_from_origin, projected, normal);
+                let blended = shadowfit_virtual_blended(map, 1, projected, slopes, 1e-6, false);
+                let mean = shadowfit_virtual_mean(map, 0, projected, slopes, 3, 1e-6, true);
+                let nearest = shadowfit_nearest(map, 0, projected, false);
+                let hardware = shadowfit_hardware(map, 1, compare, projected);
+                return vec4(blended.share, mean.share, nearest, hardware)
+                    * shadowfit_percentage_closer(map, 0, projected, 5, true);
+            }";
+        for (map, kind) in [(MAP, "texture_depth_2d"), (MAP_ARRAY, "texture_depth_2d_array")] {
+            let binding = format!("@group(0) @binding(0) var map: {kind};\n");
+            validated(&[PROJECT, map, FILTERS, VIRTUAL_SAMPLES, &binding, shader].concat());
+        }
+    }
+}
