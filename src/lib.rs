@@ -96,6 +96,7 @@ mod rays;
 mod rounding;
 mod scene;
 mod settings;
+mod splat;
 mod view;
 mod warp;
 #[cfg(feature = "wgsl")]
@@ -114,4 +115,5 @@ pub use perspective::{ClassKind, LightClass, NearCase, VirtualCamera, classify};
 pub use quality::{DepthFormat, Footprint};
 pub use scene::{Aabb, ConvexScene, Scene};
 pub use settings::{Origin, Settings, Shift, Warp};
+pub use splat::Splat;
 pub use view::{FrustumPlanes, Lens, View};

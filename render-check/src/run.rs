@@ -9,7 +9,7 @@ use shadowfit::{DepthFormat, Focus, Form, Light, Map, Origin, Settings, fit};
 
 use crate::args::ClipArg;
 use crate::fitting::{NoMap, map_or_reason, median_time};
-use crate::gpu::{Bias, Filter, MapPass, ShadowMap, Shadows, shadow_test};
+use crate::gpu::{Bias, Filter, MapPass, Points, ShadowMap, Shadows, shadow_test};
 use crate::scene::Mesh;
 use crate::stage::{Stage, StageLight};
 use crate::technique::Technique;
@@ -31,6 +31,8 @@ pub struct Options {
     pub faces: Faces,
     /// How it is read.
     pub filter: Filter,
+    /// What is drawn for the points of clouds.
+    pub points: Points,
     /// What is added to depth; `None` for what the filter needs, see [`enough_bias`].
     pub bias: Option<Bias>,
     /// How often it is drawn and read, for the median of the times.
@@ -48,6 +50,7 @@ impl Options {
             format: DepthFormat::Unorm24,
             faces: Faces::All,
             filter: Filter::Nearest,
+            points: Points::default(),
             bias: None,
             frames: 1,
         }
@@ -55,7 +58,7 @@ impl Options {
 
     fn pass(&self, map: &Map) -> MapPass {
         let bias = self.bias.unwrap_or_else(|| enough_bias(self.format, self.filter, map.depth().rounding));
-        MapPass { format: self.format, faces: self.faces, bias }
+        MapPass { format: self.format, faces: self.faces, bias, points: self.points }
     }
 
     /// A border as wide as the filter reaches.
@@ -108,7 +111,7 @@ impl FittedMap {
     ///
     /// When the settings cannot be used.
     pub fn new(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
-        let focus = Focus::new(&stage.view, light, &stage.bounds);
+        let focus = Focus::new(&stage.fitted_view, light, &stage.bounds);
         let map = match map_or_reason(focus.fit(&options.settings(stage.size[1])?)) {
             Ok(map) => map,
             Err(none) => return Ok(Err(none)),
@@ -196,7 +199,7 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
     let depths = shadow_map.depths(stage.gpu)?;
     // A fit takes a few hundred times less than a frame.
     let fits = 300 * options.frames as usize - 299;
-    let fit_time = median_time(fits, || fit(&stage.view, &light.light, &stage.bounds, map.settings()));
+    let fit_time = median_time(fits, || fit(&stage.fitted_view, &light.light, &stage.bounds, map.settings()));
     let rendered = Rendered {
         map: &map,
         lit: &lit,

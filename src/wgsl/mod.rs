@@ -3,3 +3,13 @@
 //! Each constant is the text of a few functions without bindings or entry points, to be put before the shader that calls
 //! them. What they need they take as arguments: matrices as this crate gives them, textures, samplers. All names begin
 //! with `shadowfit_`.
+
+/// Discs and balls as quads in a shadow map, each of its [`covering`](crate::Splat::covering) size and of its own depth.
+///
+/// - `shadowfit_disc_splat(shadow_from_world, centre, normal, radius, map_size, corner)`: the clip position of a corner of
+///   a disc's rectangle, see [`Map::disc_splat`](crate::Map::disc_splat). `shadow_from_world` is
+///   [`Map::matrix`](crate::Map::matrix), `centre`, a unit `normal` and `radius` are in the space that it takes positions
+///   in, `map_size` is the map's size as an f32, and `corner` has coordinates −1 or 1.
+/// - `shadowfit_ball_splat(shadow_from_world, centre, radius, map_size, corner)`: the same of a ball, see
+///   [`Map::splat`](crate::Map::splat).
+pub const SPLAT: &str = include_str!("splat.wgsl");

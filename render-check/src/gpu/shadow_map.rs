@@ -8,6 +8,7 @@ use shadowfit::glam::{Mat4, Vec3};
 use shadowfit::{ClipSpace, DepthFormat, DepthRange, Map, YAxis};
 
 use super::pass::{Pass, PipelineKind, depth_state};
+use super::splats::{Points, SplatPass};
 use super::{Geometry, Gpu, read_back, shaders};
 use crate::trace::Faces;
 
@@ -57,6 +58,8 @@ pub struct MapPass {
     pub faces: Faces,
     /// What is added to depth.
     pub bias: Bias,
+    /// What is drawn for points. Splats and texels have no sides.
+    pub points: Points,
 }
 
 fn format_name<S: serde::Serializer>(format: &DepthFormat, serializer: S) -> Result<S::Ok, S::Error> {
@@ -115,6 +118,7 @@ impl ShadowMap {
             slope_scale: sign as f32 * options.bias.slope,
             clamp: 0.0,
         };
+        let depth = depth_state(format, compare, bias);
         let pipeline = PipelineKind {
             shader: shaders::SHADOW_MAP,
             constants: &[],
@@ -129,23 +133,32 @@ impl ShadowMap {
                 },
                 ..Default::default()
             },
-            depth: Some(depth_state(format, compare, bias)),
+            depth: Some(depth.clone()),
             targets: &[],
         }
         .build(gpu);
         let light = gpu.uniforms(&[map.matrix(), raster_from_clip(clip)]);
         let size = map.settings().map_size();
         let (_, view) = gpu.target([size, size], format);
-        let draws: Vec<Range<u32>> = casters.iter().map(Geometry::vertices_of).collect();
+        let (triangles, discs) = match options.points {
+            Points::Discs => (casters.to_vec(), Vec::new()),
+            Points::Splats | Points::Texels => geometry.without_discs(casters),
+        };
+        let draws: Vec<Range<u32>> = triangles.iter().map(Geometry::vertices_of).collect();
         let pass = Pass {
             pipeline: &pipeline,
             bindings: &gpu.bindings(&pipeline, &[light.as_entire_binding()]),
             colours: &[],
-            depth: Some((&view, if reversed { 0.0 } else { 1.0 })),
+            depth: Some((&view, wgpu::LoadOp::Clear(if reversed { 0.0 } else { 1.0 }))),
             geometry: Some(geometry),
             draws: &draws,
         };
-        let time = pass.run(gpu)?;
+        let mut time = pass.run(gpu)?;
+        if !discs.is_empty() {
+            let splats = SplatPass { points: options.points, size, light: &light, view: &view, depth };
+            let more = splats.run(gpu, geometry, &discs)?;
+            time = time.zip(more).map(|(triangles, discs)| triangles + discs);
+        }
         Ok(Self { view, map: *map, time })
     }
 

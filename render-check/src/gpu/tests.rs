@@ -33,7 +33,7 @@ fn stage(clip: ClipSpace) -> Stage {
 
 fn draw_all(stage: &Stage, format: DepthFormat, bias: Bias) -> (Geometry, ShadowMap) {
     let geometry = Geometry::upload(&stage.gpu, &stage.mesh, stage.view.eye()).expect("it fits");
-    let options = MapPass { format, faces: Faces::All, bias };
+    let options = MapPass { format, faces: Faces::All, bias, points: Points::Discs };
     let all = 0..stage.mesh.triangles.len() as u32;
     let shadow_map = ShadowMap::draw(&stage.gpu, &geometry, &[all], &stage.map, &options).expect("drawn");
     (geometry, shadow_map)

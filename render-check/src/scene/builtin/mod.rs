@@ -2,6 +2,7 @@
 
 mod behind;
 mod chess_board;
+mod cloud;
 mod ground;
 mod leaves;
 mod room;
@@ -22,7 +23,7 @@ pub struct BuiltIn {
 }
 
 /// All of them.
-pub const BUILT_IN: [BuiltIn; 6] = [
+pub const BUILT_IN: [BuiltIn; 7] = [
     BuiltIn {
         name: "chess-board",
         shows: "a long board with pieces from a low camera, as in the paper's Fig. 1",
@@ -47,6 +48,11 @@ pub const BUILT_IN: [BuiltIn; 6] = [
         name: "room",
         shows: "a room from inside, with a lamp above the view and the sun in the window",
         make: room::make,
+    },
+    BuiltIn {
+        name: "cloud",
+        shows: "points alone, as a scanner takes them: an undulating ground and a ball over it",
+        make: cloud::make,
     },
     BuiltIn { name: "ground", shows: "a flat plate without any height and nothing on it", make: ground::make },
 ];
