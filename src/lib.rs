@@ -108,6 +108,7 @@ mod second_depth;
 mod settings;
 #[cfg(feature = "std")]
 mod solidity;
+mod splat;
 mod view;
 mod virtual_sample;
 mod warp;
@@ -137,5 +138,6 @@ pub use second_depth::{Culling, DepthTest};
 pub use settings::{Origin, Settings, Shift, Warp};
 #[cfg(feature = "std")]
 pub use solidity::{Sheet, Solidity, SolidityReport};
+pub use splat::Splat;
 pub use view::{FrustumPlanes, Lens, View};
 pub use virtual_sample::{LEAST_INCIDENCE, Rule, SUBTEXEL, Sampled, TangentPlane};

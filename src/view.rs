@@ -1,6 +1,6 @@
 //! The view V: the camera's frustum, whatever convention its matrices came in.
 
-use crate::clip_space::ClipSpace;
+use crate::clip_space::{ClipSpace, DepthRange};
 use crate::convex::{Plane, matrix_from_rows};
 use crate::decode::{EyeAxes, Frame};
 use crate::error::{InputError, Problem, check};
@@ -218,6 +218,36 @@ impl View {
     #[must_use]
     pub fn depth(&self, point: DVec3) -> f64 {
         self.forward.dot(point - self.eye)
+    }
+
+    /// The depth before the eye, in world units, that a value in the camera's own depth buffer stands for: what a renderer
+    /// that reads back the nearest and the farthest of what is visible (PSM §6) turns into numbers for
+    /// [`Self::narrowed`], widened by a few steps of the buffer's format.
+    ///
+    /// `stored` runs from 0 to 1, as depth buffers do on every API, and `range` is that of the camera's clip space; values
+    /// outside are taken for the end they are beyond, NaN for 0. What is cleared to the far end and never drawn to has the depth of
+    /// the far plane, infinite where that is.
+    ///
+    /// ```
+    /// use shadowfit::{DepthRange, View};
+    ///
+    /// let view = View::perspective((0.0, 1.7, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, f64::INFINITY)?;
+    /// // Reversed, without end: the buffer holds near / depth.
+    /// let (nearest, farthest) = (0.05, 0.000_4);
+    /// let depth = |stored| view.depth_of(stored, DepthRange::ZeroToOneReversed);
+    /// let narrowed = view.narrowed(depth(nearest) * 0.999, depth(farthest) * 1.001)?;
+    /// assert!((narrowed.near() - 1.998).abs() < 1e-9 && (narrowed.far() - 250.25).abs() < 1e-9);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
+    #[must_use]
+    pub fn depth_of(&self, stored: f64, range: DepthRange) -> f64 {
+        let stored = if stored > 0.0 { stored.min(1.0) } else { 0.0 };
+        let (to_near, to_far) = if range.is_reversed() { (stored, 1.0 - stored) } else { (1.0 - stored, stored) };
+        match self.lens {
+            // 1/depth is what is stored, between 1/near and 1/far.
+            Lens::Perspective => self.near / (to_near + to_far * (self.near / self.far)),
+            Lens::Orthographic => self.near * to_near + self.far * to_far,
+        }
     }
 
     /// Half the height, in world units, of what the image shows at a depth.

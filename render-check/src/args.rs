@@ -7,7 +7,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 use shadowfit::glam::DVec3;
 use shadowfit::{ClipSpace, DepthFormat};
 
-use crate::gpu::{Bias, Filter};
+use crate::gpu::{Bias, Filter, Points};
 use crate::light::LightSpec;
 use crate::run::Options;
 use crate::scene::BUILT_IN;
@@ -207,6 +207,10 @@ pub struct MapArgs {
     #[arg(long, value_enum, default_value_t = Faces::All)]
     pub faces: Faces,
 
+    /// What is drawn into the map for a point of a cloud
+    #[arg(long, value_enum, default_value_t = Points::Discs)]
+    pub points: Points,
+
     /// How the map is read: nearest, hardware (2 x 2, blended), pcfN for the mean over N x N texels, or virtualN for the same
     /// with virtual samples, which need no bias on planes
     #[arg(long, value_name = "FILTER", default_value_t = Filter::Nearest)]
@@ -232,6 +236,7 @@ impl MapArgs {
             format: self.format.into(),
             faces: self.faces,
             filter: self.filter,
+            points: self.points,
             bias: self.bias,
             frames,
             ..Options::new(technique, map_size)
@@ -250,6 +255,11 @@ pub struct CheckArgs {
     /// The maps.
     #[command(flatten)]
     pub map: MapArgs,
+
+    /// Fit the maps to the depths that something is seen in, read back from the camera's depth buffer, and not to the
+    /// camera's near and far planes
+    #[arg(long)]
+    pub narrow: bool,
 
     /// How often each map is drawn and read, for the median of the times
     #[arg(long, default_value_t = 3, value_parser = RangedU64ValueParser::<u32>::new().range(1..=1000))]
@@ -424,8 +434,8 @@ mod tests {
     fn no_argument_is_enough() {
         let args = Args::parse_from(["render-check"]);
         assert!(args.command.is_none());
-        let CheckArgs { view, map, frames } = args.check;
-        assert!(view.lights.is_empty() && view.eye.is_none() && map.techniques.is_empty());
+        let CheckArgs { view, map, narrow, frames } = args.check;
+        assert!(!narrow && view.lights.is_empty() && view.eye.is_none() && map.techniques.is_empty());
         assert_eq!((view.scene, view.width, view.height, frames), ("chess-board".into(), 960, 600, 3));
     }
 

@@ -2,6 +2,7 @@
 //! truth.
 
 use std::path::Path;
+use std::time::Instant;
 
 use anyhow::{Result, ensure};
 use image::RgbImage;
@@ -30,6 +31,8 @@ pub struct CheckReport {
     pub image: [u32; 2],
     /// The camera.
     pub camera: CameraReport,
+    /// What the maps were fitted to: the camera, or what of its depth something is seen in.
+    pub fitted: CameraReport,
     /// Every run, light by light.
     pub runs: Vec<RunReport>,
 }
@@ -49,6 +52,7 @@ pub fn check(args: &CheckArgs) -> Result<()> {
 
     let size = [args.view.width, args.view.height];
     let stage = Stage::new(&gpu, &tracer, &view, size)?.with_lamp_near(args.view.lamp_near);
+    let stage = if args.narrow { narrowed(stage)? } else { stage };
     let lights = choose_lights(&args.view, &scene);
     let options = args.map.options(args.frames);
     let bar = bar("checking", lights.len() * options.len());
@@ -79,6 +83,7 @@ pub fn check(args: &CheckArgs) -> Result<()> {
         adapter: gpu.name().to_owned(),
         image: stage.size,
         camera: CameraReport::from(&view),
+        fitted: CameraReport::from(&stage.fitted_view),
         runs,
     };
     report::write(&report, &out.join("check.json"))?;
@@ -89,6 +94,19 @@ pub fn check(args: &CheckArgs) -> Result<()> {
         "{missing} pixels are lit because a caster is missing from a map: see the magenta pixels"
     );
     Ok(())
+}
+
+/// Narrows what maps are fitted to, and says how far.
+fn narrowed(stage: Stage<'_>) -> Result<Stage<'_>> {
+    let start = Instant::now();
+    let stage = stage.narrowed()?;
+    say(&format!(
+        "narrowed to what is seen: near {:.4}, far {:.4}, read back in {:.1} ms",
+        stage.fitted_view.near(),
+        stage.fitted_view.far(),
+        start.elapsed().as_secs_f64() * 1e3
+    ));
+    Ok(stage)
 }
 
 /// The pictures of one light.

@@ -29,7 +29,7 @@ pub struct FittedMap {
 impl FittedMap {
     /// Fits a map as a renderer does and culls the casters against H; or says why there is no map.
     fn new(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
-        let focus = Focus::new(&stage.view, light, &stage.bounds);
+        let focus = Focus::new(&stage.fitted_view, light, &stage.bounds);
         let map = match map_or_reason(focus.fit(&options.settings(stage.size[1])?)) {
             Ok(map) => map,
             Err(none) => return Ok(Err(none)),

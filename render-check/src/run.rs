@@ -10,7 +10,7 @@ use shadowfit::{DepthFormat, Map, Origin, Settings, fit};
 use crate::args::ClipArg;
 use crate::fitted_maps::{Drawn, FittedMaps};
 use crate::fitting::{NoMap, median_time};
-use crate::gpu::{Bias, Filter, MapPass, ShadowMaps, Shadows, shadow_test};
+use crate::gpu::{Bias, Filter, MapPass, Points, ShadowMaps, Shadows, shadow_test};
 use crate::stage::{Stage, StageLight};
 use crate::technique::Technique;
 use crate::trace::Faces;
@@ -31,6 +31,8 @@ pub struct Options {
     pub faces: Faces,
     /// How it is read.
     pub filter: Filter,
+    /// What is drawn for the points of clouds.
+    pub points: Points,
     /// What is added to depth; `None` for what the map says that the filter needs, see [`Map::bias`].
     pub bias: Option<Bias>,
     /// How often it is drawn and read, for the median of the times.
@@ -48,6 +50,7 @@ impl Options {
             format: DepthFormat::Unorm24,
             faces: Faces::All,
             filter: Filter::Nearest,
+            points: Points::default(),
             bias: None,
             frames: 1,
         }
@@ -67,7 +70,7 @@ impl Options {
                 (Bias { constant: enough.constant, slope: enough.slope }, enough.receiver)
             }
         };
-        Ok(MapPass { format: self.format, faces: self.faces, bias, receiver })
+        Ok(MapPass { format: self.format, faces: self.faces, bias, receiver, points: self.points })
     }
 
     /// As many texels around what is visible as the filter reaches.
@@ -157,7 +160,7 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
         fitted
             .lights
             .iter()
-            .filter(|light| fit(&stage.view, light, &stage.bounds, &settings).map().is_some())
+            .filter(|light| fit(&stage.fitted_view, light, &stage.bounds, &settings).map().is_some())
             .count()
     };
     // A fit takes a few hundred times less than a frame.

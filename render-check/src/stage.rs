@@ -19,6 +19,8 @@ pub struct Stage<'a> {
     pub bounds: Scene<'static>,
     /// The camera, V.
     pub view: View,
+    /// What maps are fitted to: the camera, or what of its depth something is seen in.
+    pub fitted_view: View,
     /// Width and height of its image, in pixels.
     pub size: [u32; 2],
     /// The triangles on the card, relative to the camera's eye.
@@ -39,7 +41,16 @@ impl<'a> Stage<'a> {
         let geometry = Geometry::upload(gpu, tracer.mesh(), view.eye())?;
         let surfaces = Surfaces::draw(gpu, &geometry, view, size)?;
         let (bounds, lamp_near) = (scene_box(tracer.mesh())?, lamp_near(tracer.mesh()));
-        Ok(Self { gpu, tracer, bounds, view: *view, size, geometry, surfaces, lamp_near })
+        Ok(Self { gpu, tracer, bounds, view: *view, fitted_view: *view, size, geometry, surfaces, lamp_near })
+    }
+
+    /// The same with maps that are fitted to what of the camera's depth something is seen in, read back from the card.
+    ///
+    /// # Errors
+    ///
+    /// When the card refuses.
+    pub fn narrowed(self) -> Result<Self> {
+        Ok(Self { fitted_view: self.surfaces.narrowed(self.gpu, &self.view)?, ..self })
     }
 
     /// The same with lamps whose maps begin at another distance, if one is given.

@@ -11,7 +11,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use render_check::gpu::{Bias, Filter, Gpu, MapDraw, MapPass, ShadowMaps, shadow_test};
+use render_check::gpu::{Bias, Filter, Gpu, MapDraw, MapPass, Points, ShadowMaps, shadow_test};
 use render_check::light::LightSpec;
 use render_check::run::{MapRun, Options, run};
 use render_check::scene::{self, LoadedScene};
@@ -262,7 +262,8 @@ fn along_the_light_a_warp_is_no_warp() {
 /// Draws some casters through some map and judges it: what a broken fit or a broken culler would do.
 fn judged(stage: &Stage<'_>, light: &StageLight, map: &Map, casters: &[std::ops::Range<u32>]) -> Verdict {
     let bias = Bias { constant: 9, slope: 1.125 };
-    let pass = MapPass { format: DepthFormat::Unorm24, faces: Faces::All, bias, receiver: 0.0 };
+    let pass =
+        MapPass { format: DepthFormat::Unorm24, faces: Faces::All, bias, receiver: 0.0, points: Points::Discs };
     let split = Split::whole();
     let draw = MapDraw { map, casters, pass };
     let shadow_maps = ShadowMaps::draw(stage.gpu, &stage.geometry, &split, &[Some(draw)]).expect("drawn");
@@ -371,6 +372,78 @@ fn flat_sheets_need_virtual_samples_and_no_bias() {
             };
             let [nearest, sampled] = [Filter::Nearest, Filter::Virtual(2)].map(false_shadow);
             assert!(nearest > 5e-4 && sampled < 1e-4, "{name}, {spec}, {technique}: {nearest}, {sampled}");
+        }
+    }
+}
+
+/// What is seen lies within the view that the depth buffer is read back to, and within little more.
+#[test]
+fn a_view_narrowed_to_what_is_seen_holds_every_pixel() {
+    let gpu = gpu();
+    for built_in in scene::BUILT_IN {
+        let scene = (built_in.make)();
+        let camera = scene.camera.expect("it has one");
+        let tracer = Tracer::new(&scene.mesh).expect("it has triangles");
+        for far in [100.0, f64::INFINITY] {
+            let view = camera.view(1.6, 0.01, far).expect("sound");
+            let stage = Stage::new(&gpu, &tracer, &view, IMAGE).and_then(Stage::narrowed).expect("drawn");
+            let truth = stage.light(scene.lights[0]).expect("sound").truth;
+            let depths = truth.pixels().iter().filter_map(|pixel| Some(view.depth(pixel.surface()?.point)));
+            let (near, far) = depths.fold((f64::INFINITY, 0.0_f64), |(near, far), d| (near.min(d), far.max(d)));
+            let (fitted, name) = (stage.fitted_view, built_in.name);
+            let inside = fitted.near() <= near && far <= fitted.far();
+            assert!(inside, "{name}: {near} to {far} in {} to {}", fitted.near(), fitted.far());
+            assert!(
+                1.01 * fitted.near() > near && 0.99 * fitted.far() < far,
+                "{name}: {near}, {far} in {fitted:?}"
+            );
+        }
+    }
+}
+
+/// The near plane in the air, where a warp is worse than none, and moved to what is seen, where it is far better.
+#[test]
+fn a_warp_pays_once_the_view_is_narrowed() {
+    let scene = scene::load(Path::new("street")).expect("built in");
+    let camera = scene.camera.expect("it has one");
+    let view = camera.view(1.6, camera.near.expect("it has one"), camera.far.expect("it has one")).expect("sound");
+    let (gpu, tracer) = (gpu(), Tracer::new(&scene.mesh).expect("it has triangles"));
+    let median = |narrow: bool, technique| {
+        let stage = Stage::new(&gpu, &tracer, &view, IMAGE).expect("drawn");
+        let stage = if narrow { stage.narrowed().expect("read back") } else { stage };
+        let verdict = run_one(&stage, &stage.light(scene.lights[0]).expect("sound"), technique).verdict;
+        assert_eq!(verdict.counts.missing, 0);
+        verdict.aliasing.expect("compared").median
+    };
+    let [wide, narrow] = [false, true].map(|narrow| median(narrow, Technique::Psm));
+    assert!(2.0 * narrow < wide, "{wide} and narrowed {narrow}");
+}
+
+/// Points as single texels let light through; as rectangles of their discs they do not, though these cast a little more
+/// than the discs do, where a warp shears them most.
+#[test]
+fn a_cloud_of_splats_has_no_holes() {
+    let scene = scene::load(Path::new("cloud")).expect("built in");
+    let camera = scene.camera.expect("it has one");
+    let view = camera.view(1.6, 1.0, 25.0).expect("sound");
+    let (gpu, tracer) = (gpu(), Tracer::new(&scene.mesh).expect("it has triangles"));
+    let stage = Stage::new(&gpu, &tracer, &view, IMAGE).expect("drawn");
+    for &spec in &scene.lights {
+        let light = stage.light(spec).expect("sound");
+        for technique in [Technique::Uniform, Technique::Psm] {
+            let counts = |points| {
+                let options = Options { points, ..Options::new(technique, 512) };
+                let Ok(run) = run(&stage, &light, &options).expect("drawn") else { panic!("{technique}: no map") };
+                run.verdict.counts
+            };
+            let [discs, splats, texels] = [Points::Discs, Points::Splats, Points::Texels].map(counts);
+            assert_eq!((discs.missing, splats.missing), (0, 0), "{spec}, {technique}");
+            assert!(discs.fraction(discs.faults()) < 0.0005, "{spec}, {technique}: {discs:?}");
+            assert!(splats.fraction(splats.false_light) < 0.0001, "{spec}, {technique}: {splats:?}");
+            assert!(splats.fraction(splats.false_shadow) < 0.0025, "{spec}, {technique}: {splats:?}");
+            // More than a third of all that is in shadow shines through.
+            let through = texels.missing + texels.false_light;
+            assert!(3 * through > texels.shadowed, "{spec}, {technique}: {texels:?}");
         }
     }
 }

@@ -11,3 +11,12 @@ pub use frustum::{FILTERS, MAP, MAP_ARRAY, PROJECT, VIRTUAL_SAMPLES};
 /// Paraboloid maps: `shadowfit_paraboloid_clip` for the vertices of casters, `shadowfit_paraboloid_texture` for what reads
 /// the map. See [`Paraboloid`](crate::Paraboloid).
 pub const PARABOLOID: &str = include_str!("paraboloid.wgsl");
+/// Discs and balls as quads in a shadow map, each of its [`covering`](crate::Splat::covering) size and of its own depth.
+///
+/// - `shadowfit_disc_splat(shadow_from_world, centre, normal, radius, map_size, corner)`: the clip position of a corner of
+///   a disc's rectangle, see [`Map::disc_splat`](crate::Map::disc_splat). `shadow_from_world` is
+///   [`Map::matrix`](crate::Map::matrix), `centre`, a unit `normal` and `radius` are in the space that it takes positions
+///   in, `map_size` is the map's size as an f32, and `corner` has coordinates −1 or 1.
+/// - `shadowfit_ball_splat(shadow_from_world, centre, radius, map_size, corner)`: the same of a ball, see
+///   [`Map::splat`](crate::Map::splat).
+pub const SPLAT: &str = include_str!("splat.wgsl");

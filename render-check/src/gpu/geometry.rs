@@ -8,7 +8,7 @@ use shadowfit::glam::DVec3;
 use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
 
 use super::Gpu;
-use crate::scene::Mesh;
+use crate::scene::{Disc, Mesh};
 
 /// The triangles of a mesh in f32, three vertices each, so that the number of a vertex tells its triangle.
 pub struct Geometry {
@@ -17,6 +17,10 @@ pub struct Geometry {
     pub(super) normals: wgpu::Buffer,
     objects: Vec<(Range<u32>, Solidity)>,
     vertex_count: u32,
+    /// The discs that the last triangles are of: centre, radius, normal, and a number for nothing, as a shader's memory
+    /// is laid out.
+    pub(super) discs: wgpu::Buffer,
+    first_disc_triangle: u32,
     origin: DVec3,
 }
 
@@ -53,8 +57,30 @@ impl Geometry {
         let normals = gpu.guarded("the triangles' normals", || {
             Ok(gpu.device.create_buffer_init(&BufferInitDescriptor { label: None, contents, usage }))
         })?;
+        let discs = mesh.discs.iter().map(|disc| {
+            let (centre, normal) = ((disc.centre - origin).as_vec3(), disc.normal.as_vec3());
+            [centre.extend(disc.radius as f32).to_array(), normal.extend(0.0).to_array()]
+        });
+        // A binding holds something, though there be no discs.
+        let mut discs: Vec<[[f32; 4]; 2]> = discs.collect();
+        discs.resize(discs.len().max(1), [[0.0; 4]; 2]);
+        let contents = bytemuck::cast_slice(&discs);
+        let discs = gpu.guarded("the discs", || {
+            Ok(gpu.device.create_buffer_init(&BufferInitDescriptor { label: None, contents, usage }))
+        })?;
         let objects = mesh.objects.iter().map(|object| (object.triangles.clone(), object.solidity)).collect();
-        Ok(Self { buffer, normals, objects, vertex_count: 3 * mesh.triangles.len() as u32, origin })
+        let vertex_count = 3 * mesh.triangles.len() as u32;
+        let first_disc_triangle = mesh.first_disc_triangle() as u32;
+        Ok(Self { buffer, normals, objects, vertex_count, discs, first_disc_triangle, origin })
+    }
+
+    /// Ranges of triangles as those of the triangles that are no discs', and those of the discs whose the others are.
+    pub(super) fn without_discs(&self, triangles: &[Range<u32>]) -> (Vec<Range<u32>>, Vec<Range<u32>>) {
+        let first = self.first_disc_triangle;
+        let plain = triangles.iter().map(|range| range.start.min(first)..range.end.min(first));
+        let disc = |triangle: u32| triangle.saturating_sub(first) / Disc::TRIANGLES.len() as u32;
+        let discs = triangles.iter().map(|range| disc(range.start)..disc(range.end));
+        (plain.filter(|range| !range.is_empty()).collect(), discs.filter(|range| !range.is_empty()).collect())
     }
 
     /// What positions on the card are relative to, in world space.

@@ -8,6 +8,7 @@
 //! | [`ShadowMaps`] | the depths of the casters, through the matrix of each of a light's maps |
 //! | [`shadow_test`] | how much light reaches every pixel, as the shadow maps have it |
 
+mod depth_ends;
 mod device;
 mod geometry;
 mod pass;
@@ -15,12 +16,14 @@ mod read_back;
 mod shaders;
 mod shadow_map;
 mod shadow_test;
+mod splats;
 mod surfaces;
 
 pub use device::Gpu;
 pub use geometry::Geometry;
 pub use shadow_map::{Bias, MapDraw, MapPass, ShadowMaps};
 pub use shadow_test::{Filter, Shadows, shadow_test};
+pub use splats::Points;
 pub use surfaces::Surfaces;
 
 #[cfg(test)]

@@ -75,8 +75,8 @@ pub(super) struct Pass<'a> {
     pub(super) pipeline: &'a wgpu::RenderPipeline,
     pub(super) bindings: &'a wgpu::BindGroup,
     pub(super) colours: &'a [&'a wgpu::TextureView],
-    /// The depth buffer and what it is cleared to; none to keep what it holds.
-    pub(super) depth: Option<(&'a wgpu::TextureView, Option<f32>)>,
+    /// The depth buffer and what it holds before.
+    pub(super) depth: Option<(&'a wgpu::TextureView, wgpu::LoadOp<f32>)>,
     /// The vertices to draw from; none for the triangle that covers the target.
     pub(super) geometry: Option<&'a Geometry>,
     pub(super) draws: &'a [Range<u32>],
@@ -91,12 +91,9 @@ impl Pass<'_> {
             let colours: Vec<_> = self.colours.iter().map(|view| Some(cleared(view))).collect();
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 color_attachments: &colours,
-                depth_stencil_attachment: self.depth.map(|(view, clear)| wgpu::RenderPassDepthStencilAttachment {
+                depth_stencil_attachment: self.depth.map(|(view, load)| wgpu::RenderPassDepthStencilAttachment {
                     view,
-                    depth_ops: Some(wgpu::Operations {
-                        load: clear.map_or(wgpu::LoadOp::Load, wgpu::LoadOp::Clear),
-                        store: wgpu::StoreOp::Store,
-                    }),
+                    depth_ops: Some(wgpu::Operations { load, store: wgpu::StoreOp::Store }),
                     stencil_ops: None,
                 }),
                 timestamp_writes: clock.as_ref().map(|(_, clock)| clock.around_pass()),

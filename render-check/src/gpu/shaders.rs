@@ -8,9 +8,17 @@ pub(super) const SURFACES: &str = include_str!("shaders/surfaces.wgsl");
 /// Casters into a shadow map.
 pub(super) const SHADOW_MAP: &str = include_str!("shaders/shadow_map.wgsl");
 
+/// The discs of points into a shadow map, as the crate's shader function places them.
+pub(super) fn splats() -> String {
+    [shadowfit::wgsl::SPLAT, include_str!("shaders/splats.wgsl")].concat()
+}
+
 /// A depth buffer as plain numbers.
 pub(super) const COPY_DEPTH: &str =
     concat!(include_str!("shaders/full_screen.wgsl"), include_str!("shaders/copy_depth.wgsl"));
+
+/// The ends of what is in a depth buffer.
+pub(super) const DEPTH_ENDS: &str = include_str!("shaders/depth_ends.wgsl");
 
 /// The shadow test with each lookup.
 pub(super) fn nearest() -> String {
@@ -54,7 +62,9 @@ mod tests {
         for (name, source) in [
             ("surfaces", SURFACES),
             ("shadow map", SHADOW_MAP),
+            ("splats", &splats()),
             ("copy depth", COPY_DEPTH),
+            ("depth ends", DEPTH_ENDS),
             ("nearest", &nearest()),
             ("hardware", &hardware()),
             ("percentage closer", &percentage_closer()),

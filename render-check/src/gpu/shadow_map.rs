@@ -8,6 +8,7 @@ use shadowfit::glam::{Mat4, Vec3, Vec4};
 use shadowfit::{ClipSpace, Culling, DepthFormat, DepthRange, Map, Offset, YAxis};
 
 use super::pass::{Pass, PipelineKind, depth_state};
+use super::splats::{Points, SplatPass};
 use super::{Geometry, Gpu, read_back, shaders};
 use crate::split::Split;
 use crate::trace::Faces;
@@ -38,6 +39,8 @@ pub struct MapPass {
     pub bias: Bias,
     /// What receivers are tested nearer to the light by, where the map's depth range is 1.
     pub receiver: f64,
+    /// What is drawn for points. Splats and texels have no sides.
+    pub points: Points,
 }
 
 fn format_name<S: serde::Serializer>(format: &DepthFormat, serializer: S) -> Result<S::Ok, S::Error> {
@@ -163,17 +166,23 @@ fn draw_layer(
         slope_scale: sign as f32 * draw.pass.bias.slope,
         clamp: 0.0,
     };
+    let depth = depth_state(format, compare, bias);
     let light = gpu.uniforms(&[draw.map.matrix(), raster_from_clip(clip)]);
-    let mut clear = Some(if reversed { 0.0 } else { 1.0 });
+    let (triangles, discs) = match draw.pass.points {
+        Points::Discs => (draw.casters.to_vec(), Vec::new()),
+        Points::Splats | Points::Texels => geometry.without_discs(draw.casters),
+    };
+    let mut load = wgpu::LoadOp::Clear(if reversed { 0.0 } else { 1.0 });
     let mut time = Some(Duration::ZERO);
-    for (cull_mode, draws) in batches(geometry, draw.casters, draw.pass.faces) {
+    let mut add = |took: Option<Duration>| time = time.zip(took).map(|(sum, took)| sum + took);
+    for (cull_mode, draws) in batches(geometry, &triangles, draw.pass.faces) {
         let pipeline = PipelineKind {
             shader: shaders::SHADOW_MAP,
             constants: &[],
             takes_geometry: true,
             // The meshes' fronts are counter-clockwise, and the crate's maps mirror nothing.
             primitive: wgpu::PrimitiveState { front_face: wgpu::FrontFace::Ccw, cull_mode, ..Default::default() },
-            depth: Some(depth_state(format, compare, bias)),
+            depth: Some(depth.clone()),
             targets: &[],
         }
         .build(gpu);
@@ -181,11 +190,17 @@ fn draw_layer(
             pipeline: &pipeline,
             bindings: &gpu.bindings(&pipeline, &[light.as_entire_binding()]),
             colours: &[],
-            depth: Some((layer, clear.take())),
+            depth: Some((layer, load)),
             geometry: Some(geometry),
             draws: &draws,
         };
-        time = time.zip(pass.run(gpu)?).map(|(sum, took)| sum + took);
+        load = wgpu::LoadOp::Load;
+        add(pass.run(gpu)?);
+    }
+    if !discs.is_empty() {
+        let size = draw.map.settings().map_size();
+        let splats = SplatPass { points: draw.pass.points, size, light: &light, view: layer, depth };
+        add(splats.run(gpu, geometry, &discs)?);
     }
     Ok(time)
 }

@@ -18,6 +18,8 @@ pub struct Surfaces {
     pub(super) numbers: wgpu::TextureView,
     /// The triangles' normals.
     pub(super) normals: wgpu::Buffer,
+    /// The camera's depth buffer: 1 at its near plane, 0 at its far plane and in the sky.
+    pub(super) depths: wgpu::TextureView,
     /// The triangle of each pixel, row by row from the top; [`Surfaces::SKY`] where there is none.
     pub triangles: Vec<u32>,
     /// How long the card took, where it has a clock.
@@ -53,12 +55,12 @@ impl Surfaces {
         let from_origin = DMat4::from_translation(geometry.origin());
         let camera = gpu.uniforms(&[(reversed_clip_from_world(view) * from_origin).as_mat4()]);
         let [(_, positions), (triangles, triangles_view)] = formats.map(|format| gpu.target(size, format));
-        let (_, depth) = gpu.target(size, depth_format);
+        let (_, depths) = gpu.target(size, depth_format);
         let pass = Pass {
             pipeline: &pipeline,
             bindings: &gpu.bindings(&pipeline, &[camera.as_entire_binding()]),
             colours: &[&positions, &triangles_view],
-            depth: Some((&depth, Some(0.0))),
+            depth: Some((&depths, wgpu::LoadOp::Clear(0.0))),
             geometry: Some(geometry),
             draws: &[geometry.vertices()],
         };
@@ -66,7 +68,8 @@ impl Surfaces {
         // Pixels that nothing was drawn to hold zeros, as triangle 0 does: numbers on the card are one higher.
         let numbers: Vec<u32> = read_back::texels(gpu, &triangles)?;
         let triangles = numbers.into_iter().map(|number| number.wrapping_sub(1)).collect();
-        Ok(Self { size, positions, numbers: triangles_view, normals: geometry.normals.clone(), triangles, time })
+        let normals = geometry.normals.clone();
+        Ok(Self { size, positions, numbers: triangles_view, normals, depths, triangles, time })
     }
 }
 

@@ -1,4 +1,4 @@
-//! Binary glTF: triangles, node transforms, cameras and punctual lights. Textures, skins and animations are ignored.
+//! Binary glTF: triangles, points, node transforms, cameras and punctual lights. Textures, skins and animations are ignored.
 
 use std::fs;
 use std::path::Path;
@@ -160,7 +160,8 @@ impl Loader<'_> {
     }
 
     fn add_primitive(&mut self, primitive: &Primitive, world_from_node: DMat4) -> Result<()> {
-        if primitive.mode() != Mode::Triangles {
+        let mode = primitive.mode();
+        if !matches!(mode, Mode::Triangles | Mode::Points) {
             self.builder.left_out.other_primitives += 1;
             return Ok(());
         }
@@ -169,6 +170,8 @@ impl Loader<'_> {
         };
         let positions: Vec<DVec3> =
             read_vectors(&positions, self.binary).context("positions")?.into_iter().map(double).collect();
+        let [red, green, blue, _] = primitive.material().pbr_metallic_roughness().base_color_factor();
+        let colour = [red, green, blue];
         let normals: Vec<Vec3> = match primitive.get(&Semantic::Normals) {
             Some(normals) => {
                 read_vectors(&normals, self.binary).context("normals")?.into_iter().map(Vec3::from_array).collect()
@@ -188,10 +191,13 @@ impl Loader<'_> {
         if let Some(index) = indices.iter().find(|&&i| i as usize >= positions.len()) {
             bail!("index {index} points beyond the {} vertices", positions.len());
         }
+        if mode == Mode::Points {
+            let points: Vec<DVec3> = indices.iter().map(|&i| positions[i as usize]).collect();
+            self.builder.add_points(&points, colour, world_from_node);
+            return Ok(());
+        }
         let triangles: Vec<[u32; 3]> = indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
-        let [red, green, blue, _] = primitive.material().pbr_metallic_roughness().base_color_factor();
-        let part =
-            Part { positions: &positions, normals: &normals, triangles: &triangles, colour: [red, green, blue] };
+        let part = Part { positions: &positions, normals: &normals, triangles: &triangles, colour };
         self.builder.add(&part, world_from_node);
         Ok(())
     }

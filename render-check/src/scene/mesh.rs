@@ -6,6 +6,7 @@ use shadowfit::Solidity;
 use shadowfit::glam::{DMat3, DMat4, DVec3, Vec3};
 
 use super::LeftOut;
+use super::cloud::{self, Disc};
 
 /// All triangles of a scene, in world space, indexed, with a colour each.
 #[derive(Clone, Debug, Default)]
@@ -18,6 +19,8 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
     /// The linear RGB base colour of each triangle.
     pub colours: Vec<[f32; 3]>,
+    /// The discs that stand for points. Each is drawn as a hexagon: the last triangles of the mesh, four for each.
+    pub discs: Vec<Disc>,
     /// The parts the mesh was made of, in the order of their triangles: what a renderer culls and draws as one.
     pub objects: Vec<Object>,
 }
@@ -40,6 +43,12 @@ impl Mesh {
     #[must_use]
     pub fn corners(&self, triangle: usize) -> [DVec3; 3] {
         self.triangles[triangle].map(|i| self.vertices[i as usize])
+    }
+
+    /// The first triangle of the first disc.
+    #[must_use]
+    pub fn first_disc_triangle(&self) -> usize {
+        self.triangles.len() - Disc::TRIANGLES.len() * self.discs.len()
     }
 
     /// The unit normal on the triangle's front.
@@ -99,6 +108,8 @@ pub struct Part<'a> {
 #[derive(Debug, Default)]
 pub struct MeshBuilder {
     mesh: Mesh,
+    /// The discs of points, with their colours: their triangles come last.
+    clouds: Vec<(Vec<Disc>, [f32; 3])>,
     /// What was left out so far.
     pub left_out: LeftOut,
 }
@@ -154,12 +165,42 @@ impl MeshBuilder {
         }
     }
 
+    /// Adds a cloud of points, which become discs.
+    pub fn add_points(&mut self, points: &[DVec3], colour: [f32; 3], world_from_part: DMat4) {
+        let points = points.iter().map(|&point| world_from_part.transform_point3(point));
+        let (finite, other): (Vec<DVec3>, Vec<DVec3>) = points.partition(|point| point.is_finite());
+        let mut discs = cloud::discs(&finite);
+        discs.retain(|disc| {
+            let corners = disc.hexagon();
+            !Disc::TRIANGLES
+                .iter()
+                .any(|&[a, b, c]| is_flat(corners[a as usize], corners[b as usize], corners[c as usize]))
+        });
+        self.left_out.points += other.len() + finite.len() - discs.len();
+        self.clouds.push((discs, colour));
+    }
+
     /// The mesh and what was left out of it.
     #[must_use]
-    pub fn finish(self) -> (Mesh, LeftOut) {
+    pub fn finish(mut self) -> (Mesh, LeftOut) {
+        for (mut discs, colour) in std::mem::take(&mut self.clouds) {
+            cloud::grouped(&mut discs, DISCS_AN_OBJECT, &mut |group| self.add_discs(group, colour));
+        }
         (self.mesh, self.left_out)
     }
+
+    /// Adds an object of discs.
+    fn add_discs(&mut self, discs: &[Disc], colour: [f32; 3]) {
+        let positions: Vec<DVec3> = discs.iter().flat_map(Disc::hexagon).collect();
+        let of_disc = |first: u32| Disc::TRIANGLES.map(|triangle| triangle.map(|corner| first + corner));
+        let triangles: Vec<[u32; 3]> = (0..discs.len() as u32).flat_map(|disc| of_disc(6 * disc)).collect();
+        self.add(&Part { positions: &positions, normals: &[], triangles: &triangles, colour }, DMat4::IDENTITY);
+        self.mesh.discs.extend(discs);
+    }
 }
+
+/// So many discs at most are culled and drawn as one.
+const DISCS_AN_OBJECT: usize = 1024;
 
 /// Whether three points lie on a line, as far as coordinates of that size can tell: each edge is known to a few
 /// roundings of the largest coordinate, so the doubled area is known to that times the longest edge.

@@ -2,6 +2,7 @@
 
 mod accessor;
 mod builtin;
+mod cloud;
 mod glb;
 mod mesh;
 
@@ -12,6 +13,7 @@ use anyhow::{Result, bail};
 use shadowfit::glam::DVec3;
 
 pub use builtin::{BUILT_IN, BuiltIn};
+pub use cloud::Disc;
 pub use mesh::{Mesh, MeshBuilder, Object, Part};
 
 use crate::framing::Camera;
@@ -39,7 +41,9 @@ pub struct LeftOut {
     pub not_finite: usize,
     /// Triangles without area.
     pub flat: usize,
-    /// Primitives made of points, lines, strips or fans.
+    /// Points that are not finite, or that too few others are around.
+    pub points: usize,
+    /// Primitives made of lines, strips or fans.
     pub other_primitives: usize,
     /// Cameras that are not used: all but the first perspective camera.
     pub cameras: usize,
@@ -60,7 +64,11 @@ impl fmt::Display for LeftOut {
         let parts: Vec<String> = [
             (self.flat, "triangle(s) without area"),
             (self.not_finite, "triangle(s) with a vertex that is not a number"),
-            (self.other_primitives, "primitive(s) that are not triangle lists (points, lines, strips, fans)"),
+            (self.points, "point(s) that are not a number or have too few others around them"),
+            (
+                self.other_primitives,
+                "primitive(s) that are neither triangle lists nor points (lines, strips, fans)",
+            ),
             (self.cameras, "further or orthographic camera(s)"),
             (self.lights, "light(s) with a direction, cone or range that makes no sense"),
         ]
@@ -100,6 +108,9 @@ impl LoadedScene {
         let position = |p: DVec3| scale * p + offset;
         let mut moved = self.clone();
         moved.mesh.vertices.iter_mut().for_each(|vertex| *vertex = position(*vertex));
+        for disc in &mut moved.mesh.discs {
+            (disc.centre, disc.radius) = (position(disc.centre), scale * disc.radius);
+        }
         for object in &mut moved.mesh.objects {
             (object.min, object.max) = (position(object.min), position(object.max));
         }

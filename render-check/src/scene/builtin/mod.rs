@@ -2,6 +2,7 @@
 
 mod behind;
 mod chess_board;
+mod cloud;
 mod ground;
 mod leaves;
 mod room;
@@ -23,7 +24,7 @@ pub struct BuiltIn {
 }
 
 /// All of them.
-pub const BUILT_IN: [BuiltIn; 7] = [
+pub const BUILT_IN: [BuiltIn; 8] = [
     BuiltIn {
         name: "chess-board",
         shows: "a long board with pieces from a low camera, as in the paper's Fig. 1",
@@ -53,6 +54,11 @@ pub const BUILT_IN: [BuiltIn; 7] = [
         name: "table",
         shows: "a table with thin legs on a floor, all of it solid: where shadows leave what casts them",
         make: table::make,
+    },
+    BuiltIn {
+        name: "cloud",
+        shows: "points alone, as a scanner takes them: an undulating ground and a ball over it",
+        make: cloud::make,
     },
     BuiltIn { name: "ground", shows: "a flat plate without any height and nothing on it", make: ground::make },
 ];

@@ -94,7 +94,7 @@ fn instances_and_nested_nodes_stand_where_their_nodes_put_them() {
 fn what_is_left_out_is_counted() {
     let scene = parse(&pack(&whole_scene(), &triangle_data()), "test".into()).expect("a sound file");
     let left_out = scene.left_out;
-    assert_eq!((left_out.flat, left_out.other_primitives, left_out.cameras), (2, 2, 1));
+    assert_eq!((left_out.flat, left_out.points, left_out.cameras), (2, 6, 1));
     assert_eq!((left_out.not_finite, left_out.lights), (0, 0));
 }
 

@@ -1,0 +1,75 @@
+// Discs and balls as quads in a shadow map.
+//
+// Both functions give the clip position, with w = 1, of one corner of the rectangle that a disc or a ball just fits into
+// in the map, grown to a texel across and down where it is smaller. `corner` is (-1, -1), (1, -1), (-1, 1) or (1, 1):
+// four vertices make a quad, on either winding, so that no side may be culled. Positions are in the space that
+// `shadow_from_world` takes them in, and the result is in the clip space that it was made for.
+//
+// What reaches a point with w <= 0, as next to a lamp, has no rectangle; its corners all fall on one place outside of the
+// clip volume, so that nothing is drawn.
+
+// A disc, across a unit normal. Its depth is that of its plane.
+fn shadowfit_disc_splat(
+    shadow_from_world: mat4x4<f32>,
+    centre: vec3<f32>,
+    normal: vec3<f32>,
+    radius: f32,
+    map_size: f32,
+    corner: vec2<f32>,
+) -> vec4<f32> {
+    let rows = transpose(shadow_from_world);
+    let clip = shadow_from_world * vec4(centre, 1.0);
+    let place = clip.xyz / clip.w;
+    // How x, y and z of the map, and w over w at the centre, change over a radius.
+    let scale = radius / clip.w;
+    let w = rows[3].xyz * scale;
+    let x = rows[0].xyz * scale - w * place.x;
+    let y = rows[1].xyz * scale - w * place.y;
+    let z = rows[2].xyz * scale - w * place.z;
+
+    let w_across = shadowfit_splat_part_across(w, normal);
+    if (!(clip.w > 0.0 && dot(w_across, w_across) < 1.0)) {
+        return vec4(0.0, 0.0, -2.0, 1.0);
+    }
+    let x_span = shadowfit_splat_span(place.x, shadowfit_splat_part_across(x, normal), w_across);
+    let y_span = shadowfit_splat_span(place.y, shadowfit_splat_part_across(y, normal), w_across);
+    let z_span = shadowfit_splat_span(place.z, shadowfit_splat_part_across(z, normal), w_across);
+    let half = vec2(x_span.y, y_span.y);
+    // Half a texel is 1 / map_size of clip space; the rest is for the grid that rasterisers move corners to.
+    let grown = max(half, vec2((1.0 + 1.0 / 128.0) / map_size));
+    let at = vec2(x_span.x, y_span.x) + corner * grown;
+
+    // On the disc's plane z is place.z plus these slopes, over `turned`, times the way from the centre.
+    let turned = dot(normal, cross(x, y));
+    let slopes = vec2(dot(normal, cross(z, y)), dot(normal, cross(x, z)));
+    // A disc seen from its edge has no bounds to its slopes: the rectangle gets no deeper than this many times the disc.
+    let deepest = 4.0 * z_span.y;
+    let reach = abs(slopes.x) * half.x + abs(slopes.y) * half.y;
+    let divisor = max(abs(turned) * deepest, reach);
+    let limited = select(0.0, deepest / divisor, divisor > 0.0) * select(-1.0, 1.0, turned >= 0.0);
+    return vec4(at, place.z + limited * dot(slopes, at - place.xy), 1.0);
+}
+
+// A ball. Its depth is its centre's.
+fn shadowfit_ball_splat(
+    shadow_from_world: mat4x4<f32>,
+    centre: vec3<f32>,
+    radius: f32,
+    map_size: f32,
+    corner: vec2<f32>,
+) -> vec4<f32> {
+    return shadowfit_disc_splat(shadow_from_world, centre, vec3(0.0), radius, map_size, corner);
+}
+
+// The part of a vector across a unit vector; all of it across zero.
+fn shadowfit_splat_part_across(v: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+    return v - normal * dot(normal, v);
+}
+
+// The middle and half the length of the values of a / w over a disc, where `place` is the value at its centre and
+// `across` and `w` are the changes of a - place * w and of w over a radius, over w at the centre.
+fn shadowfit_splat_span(place: f32, across: vec3<f32>, w: vec3<f32>) -> vec2<f32> {
+    let mixed = dot(across, w);
+    let rest = 1.0 - dot(w, w);
+    return vec2(place - mixed / rest, sqrt(mixed * mixed + rest * dot(across, across)) / rest);
+}
