@@ -124,12 +124,22 @@ impl<'a> Focus<'a> {
     }
 
     /// Makes R of any body, telling `each` which planes bound it.
-    pub(crate) fn cut_visible(&self, body: &mut Polyhedron, mut each: impl FnMut(Plane, PlaneId)) {
+    pub(crate) fn cut_visible(&self, body: &mut Polyhedron, each: impl FnMut(Plane, PlaneId)) {
         body.clear();
         if let Some(region) = &self.receivers {
-            let extent = self.cut_lit(body, region, &mut each);
-            clip_all(body, &self.view_planes, VIEW_IDS, extent, &mut each);
+            self.cut_visible_part(body, region, each);
         }
+    }
+
+    /// Makes V ∩ L ∩ `region` of any body.
+    pub(crate) fn cut_visible_part(
+        &self,
+        body: &mut Polyhedron,
+        region: &Region<'_>,
+        mut each: impl FnMut(Plane, PlaneId),
+    ) {
+        let extent = self.cut_lit(body, region, &mut each);
+        clip_all(body, &self.view_planes, VIEW_IDS, extent, &mut each);
     }
 
     /// Makes H of any body, telling `each` which planes bound it.

@@ -84,6 +84,7 @@ mod cube;
 mod cull;
 mod decode;
 mod error;
+mod filter;
 mod fit;
 mod focus;
 mod frame;
@@ -97,6 +98,8 @@ mod paraboloid;
 #[cfg(feature = "parry3d")]
 mod parry;
 mod perspective;
+#[cfg(feature = "std")]
+mod plan;
 mod quality;
 mod rays;
 #[cfg(feature = "spade")]
@@ -121,6 +124,7 @@ pub use convex::{Body, Face, Plane};
 pub use cube::CubeFace;
 pub use cull::Culler;
 pub use error::{InputError, MAX_COORDINATE, MIN_DISTANCE, Problem};
+pub use filter::Filter;
 pub use fit::{Empty, Outcome, Surrounded, fit};
 pub use focus::{Focus, Form};
 pub use glam;
@@ -129,6 +133,8 @@ pub use map::{DepthResolution, DepthSpan, Map, Report, Window};
 pub use offset::Offset;
 pub use paraboloid::{Paraboloid, ParaboloidRounding, Paraboloids};
 pub use perspective::{ClassKind, LightClass, NearCase, VirtualCamera, classify};
+#[cfg(feature = "std")]
+pub use plan::{Budget, Kind, LightPlan, Object, Objects, Pass, Plan, Projection, Reason, Surface, plan};
 pub use quality::{DepthFormat, Footprint};
 #[cfg(feature = "spade")]
 pub use refine::{Added, Refined, Refiner};

@@ -176,6 +176,15 @@ impl Light {
         }
     }
 
+    /// The distance that a light at a position reaches, in world units; infinite for a directional light.
+    #[must_use]
+    pub const fn range(&self) -> f64 {
+        match self.kind {
+            Kind::Directional { .. } => f64::INFINITY,
+            Kind::Local { range, .. } => range,
+        }
+    }
+
     /// The unit axis of a spot or a hemisphere, away from the light.
     pub(crate) const fn axis(&self) -> Option<DVec3> {
         match self.kind {

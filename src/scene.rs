@@ -74,7 +74,7 @@ impl<'a> Scene<'a> {
     }
 }
 
-fn checked_box(min: DVec3, max: DVec3) -> Result<(DVec3, DVec3), InputError> {
+pub(crate) fn checked_box(min: DVec3, max: DVec3) -> Result<(DVec3, DVec3), InputError> {
     let (min, max) = (check::point("min", min)?, check::point("max", max)?);
     if min.cmple(max).all() { Ok((min, max)) } else { check::fail("max", Problem::OutOfOrder) }
 }

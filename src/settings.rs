@@ -96,6 +96,16 @@ impl Settings {
         Ok(Self { map_size, image_height, ..Self::default() })
     }
 
+    /// The same for a map of another size, in texels a side.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`], and names `"border"` when the border is too wide for it.
+    pub fn with_map_size(self, map_size: u32) -> Result<Self, InputError> {
+        let Self { map_size, .. } = Self::new(map_size, self.image_height)?;
+        Self { map_size, ..self }.with_border(self.border)
+    }
+
     /// The same with a border of so many texels around what is visible, for filters to reach into; 1 by default.
     ///
     /// # Errors

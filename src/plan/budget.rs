@@ -1,0 +1,95 @@
+//! What a plan may spend.
+
+use crate::error::{InputError, Problem, check};
+use crate::filter::Filter;
+use crate::quality::DepthFormat;
+use crate::settings::Settings;
+
+/// What a plan may spend, and what is enough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Budget {
+    settings: Settings,
+    format: DepthFormat,
+    filter: Filter,
+    aliasing: f64,
+    texels: u64,
+}
+
+impl Budget {
+    /// The smallest map that is worth a pass, in texels a side.
+    pub const SMALLEST_MAP: u32 = 64;
+
+    /// A budget from how maps are fitted: no map is larger than that of the settings, none is warped where the settings
+    /// say [`Warp::Uniform`](crate::Warp::Uniform), and clip space and origin are the settings' own. Their back-shift is
+    /// chosen by the plan, and their border is as wide as the filter needs.
+    ///
+    /// Until told otherwise, depth has 24 bits, the filter is the sampler's own, a texel as large as a pixel is fine
+    /// enough, and all maps together may have as many texels as they need.
+    #[must_use]
+    pub fn new(settings: Settings) -> Self {
+        Self { settings, format: DepthFormat::Unorm24, filter: Filter::default(), aliasing: 1.0, texels: u64::MAX }
+    }
+
+    /// The same with a depth format.
+    #[must_use]
+    pub const fn with_format(self, format: DepthFormat) -> Self {
+        Self { format, ..self }
+    }
+
+    /// The same with the widest filter.
+    #[must_use]
+    pub const fn with_filter(self, filter: Filter) -> Self {
+        Self { filter, ..self }
+    }
+
+    /// The same with what is fine enough: the largest side of a texel, over that of a pixel.
+    ///
+    /// # Errors
+    ///
+    /// Names `"aliasing"` when it is not a positive number.
+    pub fn with_aliasing(self, aliasing: f64) -> Result<Self, InputError> {
+        match aliasing.is_finite() {
+            false => check::fail("aliasing", Problem::NotFinite),
+            true if aliasing < 1e-3 => check::fail("aliasing", Problem::TooSmall),
+            true => Ok(Self { aliasing, ..self }),
+        }
+    }
+
+    /// The same with the most texels that the maps of all lights may have together. Maps are made smaller to keep to it,
+    /// the largest first, down to [`Self::SMALLEST_MAP`] a side.
+    #[must_use]
+    pub const fn with_texels(self, texels: u64) -> Self {
+        Self { texels, ..self }
+    }
+
+    /// How maps are fitted.
+    #[must_use]
+    pub const fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The depth format.
+    #[must_use]
+    pub const fn format(&self) -> DepthFormat {
+        self.format
+    }
+
+    /// The widest filter.
+    #[must_use]
+    pub const fn filter(&self) -> Filter {
+        self.filter
+    }
+
+    /// What is fine enough, see [`Self::with_aliasing`].
+    #[must_use]
+    pub const fn aliasing(&self) -> f64 {
+        self.aliasing
+    }
+
+    /// The most texels of all maps together.
+    #[must_use]
+    pub const fn texels(&self) -> u64 {
+        self.texels
+    }
+}

@@ -1,0 +1,302 @@
+//! One light: the least that is enough for it.
+
+use super::budget::Budget;
+use super::groups::{loosened, meets};
+use super::objects::{Object, Objects, Surface};
+use super::reason::Reason;
+use super::seen::{Seen, points};
+use super::{Kind, LightPlan, Pass, Projection};
+use crate::convex::Plane;
+use crate::filter::Filter;
+use crate::fit::{Empty, Outcome};
+use crate::focus::{Focus, Form};
+use crate::light::Light;
+use crate::scene::{Aabb, Bounds, Scene};
+use crate::second_depth::DepthTest;
+use crate::settings::{Settings, Shift, Warp};
+use crate::solidity::Solidity;
+use glam::DVec3;
+use std::vec::Vec;
+
+/// Texels no finer than this are no gain: a map with more parts to it has to be better by so much.
+pub(super) const WORTH: f64 = 1.1;
+
+/// Texels smaller than this part of a pixel need no filter.
+const HIDDEN: f64 = 0.5;
+
+/// A bias that moves shadows by no more pixels than this is hidden by the filter that needs it.
+const HIDDEN_BIAS: f64 = 3.0;
+
+/// What can be near a light, of the objects.
+#[derive(Default)]
+pub(super) struct Reach {
+    pub(super) receivers: Vec<Aabb>,
+    pub(super) casters: Vec<Aabb>,
+    /// The objects of `casters`.
+    pub(super) ids: Vec<u32>,
+}
+
+impl Reach {
+    /// Collects what is visible or casts inside the planes of a light.
+    fn gather(&mut self, seen: &Seen, objects: &Objects, light: &[Plane]) {
+        let Self { receivers, casters, ids, .. } = self;
+        (receivers.clear(), casters.clear(), ids.clear());
+        seen.receivers.for_each_inside(light, |_, one| receivers.push(*one));
+        if !receivers.is_empty() {
+            objects.casters.for_each_inside(light, |id, one| {
+                casters.push(*one);
+                ids.push(id);
+            });
+        }
+    }
+}
+
+/// Maps under consideration.
+pub(super) struct Candidate {
+    pub(super) kind: Kind,
+    pub(super) projections: Vec<Projection>,
+    /// The longest side of a texel over that of a pixel, at its worst.
+    pub(super) aliasing: f64,
+}
+
+/// A candidate; none where no map of its kind serves, or where no map is needed.
+pub(super) type Found = Result<Option<Candidate>, Empty>;
+
+impl Candidate {
+    pub(super) fn new(kind: Kind, projections: Vec<Projection>, points: &[DVec3]) -> Self {
+        let of = |point| projections.iter().find_map(|projection| projection.aliasing(point));
+        let aliasing = points.iter().map(|&point| of(point).unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
+        Self { kind, projections, aliasing }
+    }
+}
+
+/// All that the choices for one light are made from.
+pub(super) struct Planner<'a> {
+    pub(super) seen: &'a Seen,
+    pub(super) objects: &'a Objects,
+    pub(super) budget: &'a Budget,
+    /// The largest map, in texels a side.
+    pub(super) most: u32,
+}
+
+impl Planner<'_> {
+    /// Plans one light and appends what its passes draw to `casters`.
+    pub(super) fn plan(&self, light: &Light, reach: &mut Reach, casters: &mut Vec<u32>) -> LightPlan {
+        reach.gather(self.seen, self.objects, &loosened(&light.planes(), self.objects.extent));
+        if reach.receivers.is_empty() {
+            return LightPlan::nothing(Reason::NothingVisible);
+        }
+        if reach.casters.is_empty() {
+            return LightPlan::nothing(Reason::NothingCasts);
+        }
+        let scene = Scene { bounds: Bounds::Lists { casters: &reach.casters, receivers: &reach.receivers } };
+        let focus = Focus::new(&self.seen.view, light, &scene);
+        let mut points = points(&focus, &reach.receivers);
+        if points.is_empty() {
+            points.extend(focus.visible().vertices());
+        }
+        let mut reasons = Vec::new();
+        match self.choose(&focus, &points, reach, &mut reasons) {
+            Ok(candidate) => self.finish(&focus, candidate, reach, casters, reasons),
+            Err(Empty::NothingVisible) => LightPlan::nothing(Reason::NothingVisible),
+            Err(Empty::NothingCasts) => LightPlan::nothing(Reason::NothingCasts),
+        }
+    }
+
+    /// How maps of so many texels a side are fitted.
+    pub(super) fn settings(&self, size: u32) -> Settings {
+        let budget = self.budget.settings();
+        let border = self.budget.filter().border().max(budget.border());
+        // Within what settings allow, which have been checked.
+        let settings = budget.with_border(0).and_then(|settings| settings.with_map_size(size));
+        settings.and_then(|settings| settings.with_border(border.min(size / 4))).unwrap_or(*budget)
+    }
+
+    /// The least that is fine enough: a map of the largest size, or a half, a quarter, … of it.
+    pub(super) fn sized(&self, at: impl Fn(u32, &mut Vec<Reason>) -> Found, reasons: &mut Vec<Reason>) -> Found {
+        let before = reasons.len();
+        let Some(largest) = at(self.most, reasons)? else { return Ok(None) };
+        let (mut size, mut aliasing) = (self.most, 2.0 * largest.aliasing);
+        while aliasing <= self.budget.aliasing() && size / 2 >= Budget::SMALLEST_MAP {
+            (size, aliasing) = (size / 2, 2.0 * aliasing);
+        }
+        // A smaller map has more border and padding for its size, which may be too much.
+        while size < self.most {
+            let reasons_of_largest = reasons.split_off(before);
+            match at(size, reasons)? {
+                Some(candidate) if candidate.aliasing <= self.budget.aliasing() => return Ok(Some(candidate)),
+                _ => size *= 2,
+            }
+            reasons.truncate(before);
+            reasons.extend(reasons_of_largest);
+        }
+        Ok(Some(largest))
+    }
+
+    fn choose(
+        &self,
+        focus: &Focus<'_>,
+        points: &[DVec3],
+        reach: &Reach,
+        reasons: &mut Vec<Reason>,
+    ) -> Result<Candidate, Empty> {
+        match self.sized(|size, reasons| self.frustum(focus, points, size, reasons), reasons)? {
+            Some(frustum) => Ok(self.instead_of_wide(focus, points, &frustum, reach, reasons)?.unwrap_or(frustum)),
+            None => self.omni(focus, points, reach, reasons),
+        }
+    }
+
+    /// One frustum, warped or not; `None` when none holds all that is visible and lit.
+    pub(super) fn frustum(
+        &self,
+        focus: &Focus<'_>,
+        points: &[DVec3],
+        size: u32,
+        reasons: &mut Vec<Reason>,
+    ) -> Found {
+        let fit = |warp, shift| {
+            let map = match focus.fit(&self.settings(size).with_warp(warp).with_shift(shift)) {
+                Outcome::Map(map) => map,
+                Outcome::Empty(empty) => return Err(empty),
+                Outcome::Surrounded(_) => return Ok(None),
+            };
+            let kind = if warp == Warp::Uniform { Kind::Uniform } else { Kind::Perspective };
+            Ok(Some(Candidate::new(kind, std::vec![Projection::Frustum(map)], points)))
+        };
+        let Some(uniform) = fit(Warp::Uniform, Shift::None)? else { return Ok(None) };
+        if uniform.aliasing <= self.budget.aliasing() {
+            reasons.push(Reason::UniformEnough);
+            return Ok(Some(uniform));
+        }
+        if self.budget.settings().warp() == Warp::Uniform {
+            reasons.push(Reason::NoWarpWanted);
+            return Ok(Some(uniform));
+        }
+        let unshifted = fit(Warp::Perspective, Shift::None)?;
+        let shifted = fit(Warp::Perspective, Shift::Back(Form::Paper))?;
+        // A light that a frustum serves without a warp it serves with one.
+        let (Some(unshifted), Some(shifted)) = (unshifted, shifted) else { return Ok(Some(uniform)) };
+        let (warped, why) = if shifted.aliasing <= unshifted.aliasing {
+            let why = Reason::ShiftFiner(unshifted.aliasing / shifted.aliasing);
+            (shifted, why)
+        } else {
+            let why = Reason::NoShiftFiner(shifted.aliasing / unshifted.aliasing);
+            (unshifted, why)
+        };
+        let ratio = warped.aliasing / uniform.aliasing;
+        Ok(Some(if ratio * WORTH < 1.0 {
+            reasons.extend([Reason::WarpFiner(ratio), why]);
+            warped
+        } else {
+            reasons.push(Reason::WarpNoFiner(ratio));
+            uniform
+        }))
+    }
+
+    /// Which casters each pass draws, how they are tested, and how the maps are read.
+    fn finish(
+        &self,
+        focus: &Focus<'_>,
+        candidate: Candidate,
+        reach: &Reach,
+        casters: &mut Vec<u32>,
+        mut reasons: Vec<Reason>,
+    ) -> LightPlan {
+        let Candidate { kind, projections, aliasing } = candidate;
+        let (mut passes, mut made_of) = (Vec::new(), MadeOf::default());
+        for projection in projections {
+            let pass = self.pass(focus, projection, reach, casters, &mut made_of);
+            if pass.casters.is_empty() {
+                continue;
+            }
+            passes.push(pass);
+        }
+        let Some(size) = passes.iter().map(Pass::map_size).max() else {
+            return LightPlan::nothing(Reason::NothingCasts);
+        };
+        if kind == Kind::CubeFaces {
+            reasons.push(Reason::Faces(passes.len() as u32));
+        }
+        if size < self.most {
+            reasons.push(Reason::SmallerMap(size));
+        }
+        let filter = if aliasing <= HIDDEN { Filter::Nearest } else { self.budget.filter() };
+        let (test, virtual_samples) = made_of.test(2.0 * filter.reach() * aliasing, &mut reasons);
+        reasons.push(match filter {
+            Filter::Nearest => Reason::TexelsHidden(aliasing),
+            _ => Reason::TexelsShow(aliasing),
+        });
+        if test == DepthTest::First {
+            for pass in &mut passes {
+                pass.bias = pass.projection.bias(self.budget.format(), filter.reach());
+            }
+        }
+        LightPlan { kind, test, virtual_samples, filter, aliasing, passes, reasons }
+    }
+
+    fn pass(
+        &self,
+        focus: &Focus<'_>,
+        projection: Projection,
+        reach: &Reach,
+        casters: &mut Vec<u32>,
+        made_of: &mut MadeOf,
+    ) -> Pass {
+        let Reach { receivers, casters: boxes, ids } = reach;
+        let body = match &projection {
+            Projection::Face(_, map) => {
+                let scene = Scene { bounds: Bounds::Lists { casters: boxes, receivers } };
+                Focus::new(&self.seen.view, &map.light, &scene).body(Form::Tight)
+            }
+            _ => focus.body(Form::Tight),
+        };
+        let half_space = match &projection {
+            Projection::Paraboloid(paraboloid) => loosened(&[paraboloid.clip_plane()], self.objects.extent),
+            _ => Vec::new(),
+        };
+        let mut drawn = std::vec![false; boxes.len()];
+        body.culler().boxes(boxes, &mut drawn);
+        let (begin, mut triangles) = (casters.len(), 0);
+        for ((&id, one), _) in ids.iter().zip(boxes).zip(&drawn).filter(|(_, drawn)| **drawn) {
+            if meets(one, &half_space) {
+                let object = self.objects.get(id);
+                triangles += u64::from(object.triangles);
+                made_of.include(object);
+                casters.push(id);
+            }
+        }
+        Pass { projection, bias: None, casters: begin..casters.len(), triangles }
+    }
+}
+
+/// What the casters of a light are made of.
+#[derive(Default)]
+struct MadeOf {
+    sheets: bool,
+    points: bool,
+}
+
+impl MadeOf {
+    fn include(&mut self, object: &Object) {
+        match object.surface {
+            Surface::Mesh(Solidity::Solid | Solidity::InsideOut) => {}
+            Surface::Mesh(Solidity::Open) => self.sheets = true,
+            Surface::Points => self.points = true,
+        }
+    }
+
+    /// The test for them, and whether by virtual samples, where a bias would move shadows by so many pixels.
+    fn test(&self, moved: f64, reasons: &mut Vec<Reason>) -> (DepthTest, bool) {
+        let (test, virtual_samples, why) = if self.points {
+            (DepthTest::First, false, Reason::PointsCast)
+        } else if !self.sheets {
+            (DepthTest::Second, false, Reason::AllSolid)
+        } else if moved <= HIDDEN_BIAS {
+            (DepthTest::First, false, Reason::BiasHidden(moved))
+        } else {
+            (DepthTest::Second, true, Reason::BiasShows(moved))
+        };
+        reasons.push(why);
+        (test, virtual_samples)
+    }
+}

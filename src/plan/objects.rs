@@ -1,0 +1,105 @@
+//! The scene as the planner wants it: objects with bounds, and what they are made of.
+
+use super::groups::Groups;
+use crate::error::{InputError, Problem, check};
+use crate::scene::{Aabb, checked_box};
+use crate::solidity::Solidity;
+use glam::DVec3;
+use std::vec::Vec;
+
+/// What an object is made of, which decides how its shadow can be tested.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Surface {
+    /// Triangles, see [`Solidity::of`].
+    Mesh(Solidity),
+    /// Points or discs, drawn as splats.
+    Points,
+}
+
+impl Default for Surface {
+    /// Triangles of which nothing is known, which is the same as an open mesh.
+    fn default() -> Self {
+        Self::Mesh(Solidity::Open)
+    }
+}
+
+/// An object of a scene: what a renderer culls and draws as one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Object {
+    /// Its bounds in world space.
+    pub bounds: Aabb,
+    /// Whether it casts shadows.
+    pub casts: bool,
+    /// Whether shadows fall on it.
+    pub receives: bool,
+    /// What its surface is made of.
+    pub surface: Surface,
+    /// How many triangles, or points, it is drawn with.
+    pub triangles: u32,
+    /// A length that none of its edges exceeds, in world units. Paraboloid maps bend lines, and hold only what is cut
+    /// finely enough.
+    pub longest_edge: f32,
+}
+
+impl Object {
+    /// An object that casts and receives, of which nothing else is known: an open mesh of one triangle as large as its box.
+    #[must_use]
+    pub fn new(bounds: Aabb) -> Self {
+        let longest_edge = (bounds.max - bounds.min).length();
+        Self { bounds, casts: true, receives: true, surface: Surface::default(), triangles: 1, longest_edge }
+    }
+}
+
+/// The objects of a scene, sorted so that those far from a light are passed over together.
+///
+/// Made once and again when objects move; [`plan`](super::plan()) reads it for every view.
+#[derive(Clone, Debug)]
+pub struct Objects {
+    objects: Vec<Object>,
+    pub(super) casters: Groups,
+    pub(super) receivers: Groups,
+    /// The largest absolute coordinates in the scene.
+    pub(super) extent: DVec3,
+}
+
+impl Objects {
+    /// Sorts objects. Those that neither cast nor receive play no part.
+    ///
+    /// # Errors
+    ///
+    /// Names `"objects"` when there are more than 2³² − 1, or the bounds of one are not finite, too large or out of
+    /// order, or its longest edge is no length.
+    pub fn new(objects: &[Object]) -> Result<Self, InputError> {
+        const FIELD: &str = "objects";
+        if u32::try_from(objects.len()).is_err() {
+            return check::fail(FIELD, Problem::TooMany);
+        }
+        let mut extent = DVec3::ZERO;
+        for object in objects {
+            let Aabb { min, max } = object.bounds;
+            let (min, max) = checked_box(min.as_dvec3(), max.as_dvec3())
+                .map_err(|error| InputError { field: FIELD, ..error })?;
+            extent = extent.max(min.abs()).max(max.abs());
+            if !(object.longest_edge >= 0.0) {
+                return check::fail(FIELD, Problem::NotFinite);
+            }
+        }
+        let those = |are: fn(&Object) -> bool| {
+            let those = (0..).zip(objects).filter(|(_, object)| are(object));
+            Groups::sorted(those.map(|(id, object)| (id, object.bounds)).collect())
+        };
+        Ok(Self {
+            casters: those(|object| object.casts),
+            receivers: those(|object| object.receives),
+            objects: objects.to_vec(),
+            extent,
+        })
+    }
+
+    /// An object by its index in the slice that was sorted.
+    pub(super) fn get(&self, id: u32) -> &Object {
+        &self.objects[id as usize]
+    }
+}

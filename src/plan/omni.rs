@@ -1,0 +1,131 @@
+//! Lights that see more than a frustum holds: paraboloids and the faces of a cube.
+
+use super::light::{Candidate, Found, Planner, Reach, WORTH};
+use super::reason::Reason;
+use super::{Kind, Projection};
+use crate::cube::CubeFace;
+use crate::fit::Empty;
+use crate::focus::Focus;
+use crate::paraboloid::{Paraboloid, Paraboloids};
+use crate::scene::{Aabb, Bounds, Scene};
+use glam::{DVec2, DVec3};
+use std::vec::Vec;
+
+/// How far, in texels, a paraboloid map may bend an edge.
+const BENT: f64 = 0.5;
+
+impl Planner<'_> {
+    /// A paraboloid in place of a frustum that is too wide.
+    pub(super) fn instead_of_wide(
+        &self,
+        focus: &Focus<'_>,
+        points: &[DVec3],
+        frustum: &Candidate,
+        reach: &Reach,
+        reasons: &mut Vec<Reason>,
+    ) -> Found {
+        if frustum.aliasing <= self.budget.aliasing() || focus.light().position().is_none() {
+            return Ok(None);
+        }
+        let found = self.sized(|size, _| self.paraboloids(focus, points, size), &mut Vec::new())?;
+        Ok(found.filter(|candidate| {
+            let is_better = candidate.kind == Kind::Paraboloid
+                && candidate.aliasing * WORTH < frustum.aliasing
+                && self.are_cut_finely(candidate, reach);
+            if is_better {
+                reasons.clear();
+                let times = frustum.aliasing / candidate.aliasing;
+                reasons.extend([Reason::WideFrustum(times), Reason::OneHemisphere]);
+            }
+            is_better
+        }))
+    }
+
+    /// Paraboloids or faces of a cube, for a light that stands among what it lights.
+    pub(super) fn omni(
+        &self,
+        focus: &Focus<'_>,
+        points: &[DVec3],
+        reach: &Reach,
+        reasons: &mut Vec<Reason>,
+    ) -> Result<Candidate, Empty> {
+        reasons.push(Reason::Surrounded);
+        let mut ignored = Vec::new();
+        let faces = self.sized(|size, _| Ok(self.faces(focus, points, size, reach)), &mut ignored)?;
+        let paraboloids = self.sized(|size, _| self.paraboloids(focus, points, size), &mut ignored)?;
+        let paraboloids = match (faces, paraboloids) {
+            (None, None) => return Err(Empty::NothingCasts),
+            (Some(faces), None) => return Ok(faces),
+            (Some(faces), Some(paraboloids)) if paraboloids.projections.len() >= faces.projections.len() => {
+                return Ok(faces);
+            }
+            (Some(faces), Some(paraboloids)) if !self.are_cut_finely(&paraboloids, reach) => {
+                reasons.push(Reason::CoarseCasters);
+                return Ok(faces);
+            }
+            // A spot, which has no cube.
+            (_, Some(paraboloids)) => paraboloids,
+        };
+        reasons.push(match paraboloids.kind {
+            Kind::Paraboloid => Reason::OneHemisphere,
+            _ => Reason::TwoHemispheres,
+        });
+        Ok(paraboloids)
+    }
+
+    fn paraboloids(&self, focus: &Focus<'_>, points: &[DVec3], size: u32) -> Found {
+        let (kind, paraboloids) = match focus.paraboloids(&self.settings(size)) {
+            Paraboloids::One(one) => (Kind::Paraboloid, std::vec![one]),
+            Paraboloids::Two(two) => (Kind::DualParaboloid, two.to_vec()),
+            Paraboloids::Empty(empty) => return Err(empty),
+            Paraboloids::Directional => return Ok(None),
+        };
+        let projections = paraboloids.into_iter().map(Projection::Paraboloid).collect();
+        Ok(Some(Candidate::new(kind, projections, points)))
+    }
+
+    /// The faces of a cube around a light, those that have something to show.
+    fn faces(&self, focus: &Focus<'_>, points: &[DVec3], size: u32, reach: &Reach) -> Option<Candidate> {
+        let position = focus.light().position()?;
+        let overlap = CubeFace::overlap(self.budget.filter().reach(), size, self.settings(size).border());
+        let (mut projections, mut aliasing) = (Vec::new(), 0.0_f64);
+        for face in CubeFace::ALL {
+            let Ok(light) = focus.light().cube_face(face, overlap) else { continue };
+            let scene = Scene { bounds: Bounds::Lists { casters: &reach.casters, receivers: &reach.receivers } };
+            let part = Focus::new(focus.view(), &light, &scene);
+            let seen: Vec<DVec3> =
+                points.iter().copied().filter(|point| CubeFace::of(point - position) == face).collect();
+            if let Ok(Some(found)) = self.frustum(&part, &seen, size, &mut Vec::new()) {
+                aliasing = aliasing.max(found.aliasing);
+                projections.extend(found.projections.into_iter().map(|projection| match projection {
+                    Projection::Frustum(map) => Projection::Face(face, map),
+                    other => other,
+                }));
+            }
+        }
+        (!projections.is_empty()).then_some(Candidate { kind: Kind::CubeFaces, projections, aliasing })
+    }
+
+    /// Whether a paraboloid map of the candidate bends no edge of any caster by more than [`BENT`] texels.
+    fn are_cut_finely(&self, candidate: &Candidate, reach: &Reach) -> bool {
+        candidate.projections.iter().all(|projection| match projection {
+            Projection::Paraboloid(paraboloid) => reach
+                .casters
+                .iter()
+                .zip(&reach.ids)
+                .all(|(one, &id)| is_short(self.objects.get(id).longest_edge.into(), one, paraboloid)),
+            _ => true,
+        })
+    }
+}
+
+/// Whether an edge of this length anywhere in a box is bent by no more than [`BENT`] texels.
+fn is_short(edge: f64, one: &Aabb, paraboloid: &Paraboloid) -> bool {
+    let (min, max) = (one.min.as_dvec3(), one.max.as_dvec3());
+    let position = paraboloid.position();
+    // What is nearer than the near distance does not cast.
+    let distance = position.distance(position.clamp(min, max)).max(paraboloid.near());
+    // Seen from a distance d to its nearest point, an edge of length e subtends at most 2 · atan(e/2d).
+    let angle = 2.0 * DVec2::new(2.0 * distance, edge).to_angle();
+    paraboloid.edge_error(angle) <= BENT
+}

@@ -1,0 +1,101 @@
+//! Why a plan is as it is.
+
+use core::fmt;
+
+/// A reason for one part of a plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum Reason {
+    /// No map: nothing that receives is in view and lit.
+    NothingVisible,
+    /// No map: nothing casts on what is in view and lit.
+    NothingCasts,
+    /// One uniform map: it is fine enough.
+    UniformEnough,
+    /// One uniform map: the settings want no warp.
+    NoWarpWanted,
+    /// One uniform map: a warp would be no finer. With its worst texel over the uniform map's.
+    WarpNoFiner(f64),
+    /// One warped map: its worst texel is this part of the uniform map's.
+    WarpFiner(f64),
+    /// The warp's camera is moved back: without, the worst texel would be so many times as large.
+    ShiftFiner(f64),
+    /// The warp's camera stays where the view's is: moved back, the worst texel would be so many times as large.
+    NoShiftFiner(f64),
+    /// No single frustum: the light stands among what it lights.
+    Surrounded,
+    /// No frustum though one would hold it all: it is so wide that its worst texel would be so many times as large.
+    WideFrustum(f64),
+    /// One paraboloid: all that is visible and lit lies in one hemisphere.
+    OneHemisphere,
+    /// Two paraboloids: all casters are cut finely enough for the bent lines of such maps, and two passes are fewer than
+    /// those of a cube.
+    TwoHemispheres,
+    /// No paraboloid: an edge of a caster spans more of the light's view than such a map can bend.
+    CoarseCasters,
+    /// A cube's faces: so many of the six have something to show.
+    Faces(u32),
+    /// Smaller than the budget allows: still fine enough at so many texels a side.
+    SmallerMap(u32),
+    /// Smaller than the light asks for, to keep to the texels of all lights: at most so many a side.
+    OverBudget(u32),
+    /// Second depth without a bias: all casters are solid.
+    AllSolid,
+    /// First depth with a bias: not all casters are solid, and the bias moves shadows by no more than this part of a
+    /// pixel.
+    BiasHidden(f64),
+    /// Virtual samples: not all casters are solid, and a bias would move shadows by so many pixels.
+    BiasShows(f64),
+    /// First depth with a bias: there are points among the casters.
+    PointsCast,
+    /// The nearest texel alone: the largest is this part of a pixel, so that a filter would hide nothing.
+    TexelsHidden(f64),
+    /// Filtered: the largest texel is so many times as large as a pixel.
+    TexelsShow(f64),
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NothingVisible => f.write_str("no map: nothing in view can be lit"),
+            Self::NothingCasts => f.write_str("no map: nothing can cast on what is in view and lit"),
+            Self::UniformEnough => f.write_str("uniform: fine enough without a warp"),
+            Self::NoWarpWanted => f.write_str("uniform: the settings want no warp"),
+            Self::WarpNoFiner(part) => {
+                write!(f, "uniform: the worst texel of a warp would be {part:.2} times as large")
+            }
+            Self::WarpFiner(part) => write!(f, "warped: the worst texel is {part:.2} times the uniform map's"),
+            Self::ShiftFiner(times) => {
+                write!(f, "moved back: without, the worst texel would be {times:.2} times as large")
+            }
+            Self::NoShiftFiner(times) => {
+                write!(f, "not moved back: with that, the worst texel would be {times:.2} times as large")
+            }
+            Self::Surrounded => f.write_str("no single frustum: the light stands among what it lights"),
+            Self::WideFrustum(times) => {
+                write!(f, "no frustum: it is so wide that the worst texel would be {times:.2} times as large")
+            }
+            Self::OneHemisphere => f.write_str("one paraboloid: one hemisphere holds all that is seen and lit"),
+            Self::TwoHemispheres => f.write_str("two paraboloids: fewer passes than a cube's faces"),
+            Self::CoarseCasters => {
+                f.write_str("no paraboloid: an edge of a caster is too long for a map that bends lines")
+            }
+            Self::Faces(count) => write!(f, "{count} of a cube's six faces: the others have nothing to show"),
+            Self::SmallerMap(size) => write!(f, "{size} texels a side are fine enough"),
+            Self::OverBudget(size) => write!(f, "{size} texels a side: more would exceed those of all lights"),
+            Self::AllSolid => f.write_str("second depth, no bias: all casters are solid"),
+            Self::BiasHidden(pixels) => {
+                write!(f, "first depth with a bias: it moves shadows by {pixels:.2} pixels at most")
+            }
+            Self::BiasShows(pixels) => {
+                write!(f, "virtual samples: a bias would move shadows by {pixels:.1} pixels")
+            }
+            Self::PointsCast => f.write_str("first depth with a bias: there are points among the casters"),
+            Self::TexelsHidden(part) => {
+                write!(f, "nearest texel: the largest is {part:.2} pixels, so that a filter hides nothing")
+            }
+            Self::TexelsShow(times) => write!(f, "filtered: the largest texel is {times:.2} pixels"),
+        }
+    }
+}
