@@ -25,10 +25,12 @@ impl Filter {
         }
     }
 
-    /// The border of a map, in texels, that it can read into beyond what is visible.
+    /// The border of a map, in texels, that it can read into beyond what is visible: its reach, rounded up.
     #[must_use]
     pub fn border(self) -> u32 {
-        // Positive and small.
-        self.reach().ceil() as u32
+        match self {
+            Self::Nearest | Self::Hardware => 1,
+            Self::PercentageCloser(taps) => u32::from(taps.max(1)).div_ceil(2),
+        }
     }
 }

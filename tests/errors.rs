@@ -6,6 +6,8 @@ use shadowfit::{
     Aabb, ClipSpace, ConvexScene, CubeFace, InputError, Light, MAX_COORDINATE, MIN_DISTANCE, Outcome, Plane,
     Problem, Scene, Settings, View, fit,
 };
+#[cfg(feature = "std")]
+use shadowfit::{Budget, Object, Objects};
 
 const NAN: f64 = f64::NAN;
 const INFINITY: f64 = f64::INFINITY;
@@ -380,6 +382,37 @@ fn sizes_of_settings() {
     refused(settings.with_border(5), "border", Problem::TooLarge);
     refused(settings.with_border(u32::MAX), "border", Problem::TooLarge);
     assert_eq!(settings.with_border(4).unwrap().border(), 4);
+    refused(settings.with_map_size(3), "map_size", Problem::TooSmall);
+    refused(settings.with_border(4).unwrap().with_map_size(15), "border", Problem::TooLarge);
+    assert_eq!(settings.with_map_size(64).unwrap().map_size(), 64);
+}
+
+#[cfg(feature = "std")]
+#[test]
+fn plans() {
+    let budget = Budget::new(Settings::default());
+    for value in NOT_FINITE {
+        refused(budget.with_aliasing(value), "aliasing", Problem::NotFinite);
+    }
+    for value in [0.0, -1.0, DENORMAL] {
+        refused(budget.with_aliasing(value), "aliasing", Problem::TooSmall);
+    }
+    assert_eq!(budget.with_aliasing(0.5).unwrap().aliasing(), 0.5);
+
+    let sound = Object::new(Aabb::new(Vec3::ZERO, Vec3::ONE));
+    assert!(Objects::new(&[]).is_ok() && Objects::new(&[sound]).is_ok());
+    let bounds = [
+        (Aabb::new(Vec3::NAN, Vec3::ONE), Problem::NotFinite),
+        (Aabb::new(Vec3::ZERO, Vec3::INFINITY), Problem::NotFinite),
+        (Aabb::new(Vec3::ZERO, Vec3::splat(1e13)), Problem::TooLarge),
+        (Aabb::new(Vec3::ONE, Vec3::ZERO), Problem::OutOfOrder),
+    ];
+    for (bounds, problem) in bounds {
+        refused(Objects::new(&[sound, Object { bounds, ..sound }]), "objects", problem);
+    }
+    for (longest_edge, problem) in [(f32::NAN, Problem::NotFinite), (-1.0, Problem::TooSmall)] {
+        refused(Objects::new(&[Object { longest_edge, ..sound }]), "objects", problem);
+    }
 }
 
 /// The messages, as someone reads them in a log.

@@ -416,6 +416,9 @@ fn hemispheres_hold_what_they_must() {
         let focus = together.focus();
         let visible = focus.visible();
         let fitted = focus.paraboloids(&settings);
+        // R is cut from the scene, and its points are known to what can be known there.
+        let (min, max) = case.scene.bounds();
+        let scene = DVec3::from(min).abs().max(DVec3::from(max).abs());
         match fitted {
             Paraboloids::Empty(Empty::NothingVisible) => assert!(visible.is_empty()),
             Paraboloids::Empty(Empty::NothingCasts) => return,
@@ -441,7 +444,7 @@ fn hemispheres_hold_what_they_must() {
             }
             // A point of R is as far outside of a plane as rounding can carry it.
             let behind = -map.clip_plane().at(point);
-            let extent = point.abs().max(map.position().abs()).element_sum();
+            let extent = scene.max(point.abs()).max(map.position().abs()).element_sum();
             assert!(behind <= 512.0 * f64::EPSILON * extent, "{point} is {behind} behind the rim");
             let rounding = map.rounding(point);
             let depth = shader(map, (point - origin(map)).as_vec3()).place.z;

@@ -7,9 +7,9 @@ use serde::de::DeserializeOwned;
 use serde_json::{Value, from_str, from_value, json, to_string, to_value};
 use shadowfit::glam::{DMat4, DVec3, DVec4, Vec3};
 use shadowfit::{
-    Aabb, ClipSpace, CubeFace, DepthBias, DepthFormat, DepthResolution, DepthSpan, Empty, Focus, Footprint, Form,
-    Light, LightClass, NearCase, Offset, Origin, Outcome, Plane, Scene, Settings, Shift, Surrounded, View,
-    VirtualCamera, Warp, Window, classify,
+    Aabb, Budget, ClipSpace, CubeFace, DepthBias, DepthFormat, DepthResolution, DepthSpan, Empty, Filter, Focus,
+    Footprint, Form, Light, LightClass, NearCase, Object, Offset, Origin, Outcome, Plane, Reason, Scene, Settings,
+    Shift, Surrounded, View, VirtualCamera, Warp, Window, classify,
 };
 
 #[track_caller]
@@ -141,6 +141,17 @@ fn settings() {
     tampered(&settings, "/map_size", json!(-1), "expected u32");
     tampered(&settings, "/image_height", json!(1_000_000), "image_height is too large");
     tampered(&settings, "/border", json!(500), "border is too large");
+}
+
+#[test]
+fn budgets() {
+    let budget = Budget::new(Settings::default()).with_format(DepthFormat::Float32).with_texels(9);
+    let budget = budget.with_filter(Filter::PercentageCloser(5)).with_aliasing(0.5).unwrap();
+    comes_back(budget);
+    tampered(&budget, "/aliasing", json!(0.0), "aliasing is too small");
+    tampered(&budget, "/settings/map_size", json!(0), "map_size is too small");
+    comes_back(Object::new(Aabb::new(Vec3::NEG_ONE, Vec3::ONE)));
+    comes_back([Reason::NothingCasts, Reason::WarpFiner(0.5), Reason::Faces(3)]);
 }
 
 #[test]

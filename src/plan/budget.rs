@@ -7,7 +7,7 @@ use crate::settings::Settings;
 
 /// What a plan may spend, and what is enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "stored::Budget"))]
 pub struct Budget {
     settings: Settings,
     format: DepthFormat,
@@ -91,5 +91,29 @@ impl Budget {
     #[must_use]
     pub const fn texels(&self) -> u64 {
         self.texels
+    }
+}
+
+/// A budget as it is stored: the same values, checked again when they are read.
+#[cfg(feature = "serde")]
+mod stored {
+    use super::{DepthFormat, Filter, InputError, Settings};
+
+    #[derive(serde::Deserialize)]
+    pub(super) struct Budget {
+        settings: Settings,
+        format: DepthFormat,
+        filter: Filter,
+        aliasing: f64,
+        texels: u64,
+    }
+
+    impl TryFrom<Budget> for super::Budget {
+        type Error = InputError;
+        fn try_from(budget: Budget) -> Result<Self, InputError> {
+            let Budget { settings, format, filter, aliasing, texels } = budget;
+            let checked = Self::new(settings).with_aliasing(aliasing)?;
+            Ok(checked.with_format(format).with_filter(filter).with_texels(texels))
+        }
     }
 }

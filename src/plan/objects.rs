@@ -39,7 +39,7 @@ pub struct Object {
     /// How many triangles, or points, it is drawn with.
     pub triangles: u32,
     /// A length that none of its edges exceeds, in world units. Paraboloid maps bend lines, and hold only what is cut
-    /// finely enough.
+    /// finely enough. Infinite where nothing is known of them.
     pub longest_edge: f32,
 }
 
@@ -82,8 +82,11 @@ impl Objects {
             let (min, max) = checked_box(min.as_dvec3(), max.as_dvec3())
                 .map_err(|error| InputError { field: FIELD, ..error })?;
             extent = extent.max(min.abs()).max(max.abs());
-            if !(object.longest_edge >= 0.0) {
+            if object.longest_edge.is_nan() {
                 return check::fail(FIELD, Problem::NotFinite);
+            }
+            if object.longest_edge < 0.0 {
+                return check::fail(FIELD, Problem::TooSmall);
             }
         }
         let those = |are: fn(&Object) -> bool| {
