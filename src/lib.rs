@@ -10,6 +10,14 @@
 //! 5. what the matrix costs and gives: texel footprints, aliasing, depth resolution ([`Report`]), and the casters to
 //!    draw ([`Body::meets_box`], [`Culler`]).
 //!
+//! For lights that one frustum cannot serve there are the faces of a cube ([`Light::cube_face`]) and paraboloid maps
+//! ([`Focus::paraboloids`]). How depth is tested is part of a shadow too: the bias that a map needs ([`Map::bias`]),
+//! second depth, which needs none ([`DepthTest`], [`Solidity`]), virtual samples ([`TangentPlane`]), and splats for points
+//! ([`Map::splat`]).
+//!
+//! And for those who would rather not choose, [`plan`](plan()) says of every light of a scene the least that is enough,
+//! and why.
+//!
 //! ```
 //! use shadowfit::{Focus, Form, Light, Outcome, Scene, Settings, View, Warp, classify, fit};
 //!
@@ -38,7 +46,7 @@
 //! ```
 //!
 //! Data flows one way, and the modules in its order: view, light, scene → convex → focus → perspective → rays → warp →
-//! homography → fit → map.
+//! homography → fit → map, paraboloid → bias, virtual samples, splats → plan.
 //!
 //! # Conventions
 //!
@@ -55,16 +63,19 @@
 //! # Sources
 //!
 //! Perspective shadow maps: Stamminger & Drettakis, SIGGRAPH 2002. Texture-space matrices, depth precision: Kilgard,
-//! *Shadow Mapping with Today's OpenGL Hardware*, GDC 2000. Aliasing of warped maps: Lloyd, Tuft, Yoon & Manocha, EGSR
-//! 2006.
+//! *Shadow Mapping with Today's OpenGL Hardware*, GDC 2000. Second depth and virtual samples: Wang & Molnar, *Second-Depth
+//! Shadow Mapping*, UNC TR94-019, 1994. Paraboloid maps: Brabec, Annen & Seidel, *Shadow Mapping for Hemispherical and
+//! Omnidirectional Light Sources*, CGI 2002. Aliasing of warped maps: Lloyd, Tuft, Yoon & Manocha, EGSR 2006.
 //!
 //! # Features
 //!
-//! - `std` (on): square roots and angles from the standard library. Without it, enable `libm`.
+//! - `std` (on): square roots and angles from the standard library, and what needs memory of its own: the planner and
+//!   [`Solidity`]. Without it, enable `libm`.
 //! - `libm`: square roots and angles from the `libm` crate, with the same bits on every platform.
 //! - `parry3d`: bodies, boxes and convex hulls from and to parry3d.
 //! - `mint`: vectors and matrices of other libraries at the door, through glam.
 //! - `spade`: meshes cut finely enough for paraboloid maps (`Refiner`).
+//! - `wgsl`: functions for a renderer's own shaders ([`wgsl`]).
 //! - `serde`: views, lights, settings and results can be stored; what is read is checked like any other input.
 //!
 //! glam 0.33.12 to 0.34 are accepted, and the one in use is re-exported as [`glam`]. To pin it to the version another
