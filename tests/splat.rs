@@ -334,9 +334,15 @@ fn the_shader_finds_the_same_bounds_and_the_depth_of_the_disc() {
             Origin::Eye => together.view.eye(),
         };
         let rows = Rows::of(&map, origin, DVec3::ZERO, ROUNDINGS);
+        // A matrix about an origin far away cancels terms in f64 that f32 then knows nothing of.
+        let cancelled = Rows::new(&map, &together, &case);
         for round in rounds(&together, &case, seed) {
             let Some(splat) = round.splat(&map) else { continue };
-            let Some(slack) = rows.slack(&round, &splat) else { continue };
+            let (Some(slack), Some(cancelled)) = (rows.slack(&round, &splat), cancelled.slack(&round, &splat))
+            else {
+                continue;
+            };
+            let slack = slack + cancelled;
             let size = f64::from(map.settings().map_size());
             // A matrix of a scene of millimetres at a million metres is good for nothing in f32.
             if slack.max_element() > 0.25 {
@@ -354,8 +360,10 @@ fn the_shader_finds_the_same_bounds_and_the_depth_of_the_disc() {
                 places.into_iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), place| {
                     (low.min(place), high.max(place))
                 });
-            // Clip coordinates are f32 too.
-            let slack = slack + size * f64::from(f32::EPSILON);
+            // The shader has the rows of clip space, 2u − w, with so much more of w's rounding in them; and clip coordinates
+            // are f32 too.
+            let of_w = rows.slack_of(rows.w, &round);
+            let slack = slack + size * (0.5 * of_w / (rows.least_w(&round) - of_w) + f64::from(f32::EPSILON));
             let apart = (low - (splat.centre - grown)).abs().max((high - (splat.centre + grown)).abs());
             assert!(apart.cmple(slack).all(), "{round:?}, {splat:?}: off by {apart}, not {slack}");
             placed.set(placed.get() + 1);
