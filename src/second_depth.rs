@@ -18,12 +18,13 @@ use crate::solidity::Solidity;
 /// size and rounding eat into:
 ///
 /// - **the lit side of a solid.** First depth stores it, so that it needs bias, or virtual samples where it is flat.
-///   Second depth stores what lies the solid's thickness away, and between layers half of that: neither needs anything
-///   where that is more than depth changes across the texels that a filter reads. Thinner plates, and edges that taper to
-///   nothing, need virtual samples there too.
+///   Second depth stores what lies the solid's thickness away, and needs nothing where that is more than depth changes
+///   across the texels that a filter reads. Thinner plates, and edges that taper to nothing, need virtual samples there
+///   too. Between layers it is half of the way to whatever is next, which need not be the solid's own far side: of two
+///   slabs that reach into each other it may be the top of the lower one, a hair below.
 /// - **a sheet** has no thickness and is its own second surface: it is stored in first and in second depth, and virtual
 ///   samples are exact where it is flat ([`Sheet::is_flat`](crate::Sheet)). Curved, it needs bias. Between layers it
-///   needs neither, as what is stored is halfway to what lies behind it.
+///   needs neither where what lies behind it is far enough away; where sheets meet or cross, that is nowhere.
 /// - **sides turned away from the light.** Second depth stores them, so that they may come out lit or dark: they must be
 ///   made dark by their normals, as every shading model does. (A smooth normal that looks towards the light where the
 ///   face looks away is lit by it, in patches.)
@@ -37,12 +38,45 @@ use crate::solidity::Solidity;
 /// - **second depth**: what is stored beside the contact is the solid's far wall. It meets the receiver at the contact
 ///   and nowhere before, so that the shadow reaches it to within the texels that are read. The foot, at the receiver's own
 ///   depth, is stored below the solid, where nothing is seen; a filter that reads it from beside the solid finds the
-///   receiver's own plane, which virtual samples pass by ≤.
-/// - **between layers**: as first depth with a bias of half of the thickness, which shrinks to nothing at an edge.
+///   receiver's own plane, which virtual samples pass by ≤. So does it from within the shadow: a pixel for which half of
+///   what is read is foot is lit. Likewise in a crease between two solids or two faces of one: the receiver's plane goes
+///   on into the other side, and there it lies before the far wall. Both make the shadow begin up to half of the filter
+///   from the contact: 0.02 to 0.07 % of a chess board's pixels under maps of 512², and nothing else was found wrong in it.
+/// - **between layers**: as first depth with a bias of half of the thickness, which shrinks to nothing at an edge: there
+///   the solid shadows itself.
 ///
 /// A receiver that touches the far side of a caster, as a wall does the ceiling it carries: first depth has all of the
 /// caster's thickness to spare. **Second depth leaks light** within about a texel of the contact, and where the receiver
 /// reaches into the caster, as far as it does. Between layers half of the thickness is to spare.
+///
+/// # Between layers does not pay
+///
+/// Everything that is seen must be drawn for it: a receiver that is not drawn is no layer, and under a single sheet it is
+/// lit down to halfway between the sheet and the far end of the map. Where there is no second layer the texel's middle sees
+/// one surface, which is lit, but for the deepest rows of a map: the far end is no farther from them than depth changes
+/// across a texel.
+///
+/// In percent of the pixels, false shadow and false light together, uniform maps of 1024², all lights of a scene; the
+/// first depth with the bias of [`Map::bias`](crate::Map::bias), the others without any. Virtual samples are over 2 × 2
+/// texels:
+///
+/// | scene | first depth, bias | between layers | second depth, virtual samples | 3 × 3: first, bias | 3 × 3: between layers |
+/// |---|---|---|---|---|---|
+/// | a plate alone | 0.000 | 0.012 | 0.000 | 0.000 | 0.014 |
+/// | leaves over paving | 0.033 | 0.110 | 0.006 | 0.052 | 0.026 |
+/// | a table | 0.102 | 0.128 | 0.000 | 0.023 | 0.103 |
+/// | a street | 0.152 | 13.9 | 0.001 | 0.028 | 10.6 |
+/// | a chess board | 0.071 | 0.243 | 0.041 | 0.008 | 0.083 |
+/// | Sponza, from the inside | 0.344 | 0.321 | 0.002 | 0.150 | 0.043 |
+/// | ivy | 0.164 | 0.426 | 0.000 | 0.126 | 0.028 |
+/// | a vase with flowers | 0.230 | 0.517 | 0.000 | 0.050 | 0.285 |
+/// | a garden | 0.286 | 0.353 | 0.000 | 0.030 | 0.256 |
+///
+/// The street's road lies 5 cm above the ground that it is laid in, less than depth changes across half a texel. At 512²
+/// the leaves' paving does the same: 3.9, and 17 in a warped map. All that it wins against is a bias under a wide filter
+/// among leaves and curtains, and there virtual samples are better still, at one pass in place of two. They are from
+/// `render-check SCENE --technique uniform --size 1024 --faces layers`, with `--filter pcf3` for 3 × 3, and with
+/// `--faces second --filter virtual2` for the others. [`plan`](crate::plan) never asks for it.
 ///
 /// A mesh with a hole that is drawn as if it were a solid lets **light through the hole** in second depth. That is why
 /// what to leave out is decided by what the mesh is ([`Self::culling`]).
@@ -59,7 +93,8 @@ pub enum DepthTest {
     Second,
     /// Halfway between the first two surfaces along a ray, whatever they belong to: the map is drawn twice, the second
     /// time without what the first holds, and the two are averaged, where there is no second one with the depth that the
-    /// map is cleared to. It asks nothing of the meshes.
+    /// map is cleared to. It asks nothing of the meshes but that all that is seen is drawn, and pays nowhere where virtual
+    /// samples can be had, see above. The shader functions of the `wgsl` feature do both halves of it.
     BetweenLayers,
 }
 

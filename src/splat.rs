@@ -21,8 +21,21 @@ use glam::{DVec2, DVec3};
 ///   that touch each other, at least with their corners: overlapping rectangles share a place in x and in y, so that in
 ///   neither do whole texels lie between them.
 ///
+/// # Discs, not rectangles
+///
 /// A rectangle holds more than its disc, most where a warp or a grazing light draws the disc out across the diagonal, and
-/// what lies there within the disc's plane casts too. Discs many texels large are better drawn as polygons.
+/// what lies there within the disc's plane casts too. The shader function `shadowfit_splat_corner` of the `wgsl` feature
+/// gives what it takes to discard that: where in the ellipse that the disc is in the map a fragment lies.
+///
+/// - A disc whose ellipse is 1.43 texels or more across where it is narrowest holds the middle of a texel wherever it
+///   falls. It draws just the texels whose middles it covers, as a polygon would, and discs that cover a surface still
+///   leave no hole in it.
+/// - A narrower ellipse is widened to that, which leaves all of a rectangle of [`Self::covering`]'s least size, so that a
+///   disc smaller than a texel is drawn as ever: each draws one texel at least. Towards the tips of an ellipse that is long
+///   and narrow besides, texels are left out that the rectangle has: wires that must not break are drawn as rectangles.
+///
+/// Of the points of an aerial survey, with 1024² texels, 4.4 % of the pixels were in false shadow of rectangles in a warped
+/// map and 1.2 % in a uniform one, and 0.23 % and 0.05 % are of discs.
 ///
 /// # Depth
 ///

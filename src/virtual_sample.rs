@@ -47,6 +47,15 @@ pub const SUBTEXEL: f64 = 1.0 / 256.0;
 ///
 /// ∇u × ∇v points along the light's ray, so that the denominator vanishes where the light sees the plane from its edge,
 /// and only there; see [`LEAST_INCIDENCE`].
+///
+/// # What they cannot know
+///
+/// They are as exact as what a rasteriser stores. Rasterisers set up the slopes of depth of a triangle in f32, with errors
+/// that grow with its length and over its width in texels: of strips like kerbs, 0.7 texels wide and a thousand long, the
+/// stored depth was found off by what it changes in a tenth of a texel, 25 times what [`SUBTEXEL`] allows, and up to 0.18 %
+/// of a street shadowed itself (`render-check street --size 512 --filter virtual2`). Cut into 40 pieces along their length,
+/// the same strips did so nowhere. No tolerance is widened for them, as it would be for all: such triangles are better
+/// cut. Averaged over 3 × 3 texels the errors did not show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentPlane {
     place: DVec2,

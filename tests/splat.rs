@@ -281,6 +281,18 @@ fn numbers_that_are_none_have_no_bounds() {
 
 /// What the shader does, operation by operation, in f32.
 fn mirrored(matrix: Mat4, centre: Vec3, normal: Vec3, radius: f32, map_size: f32, corner: Vec2) -> [f32; 3] {
+    mirrored_corner(matrix, centre, normal, radius, map_size, corner).0
+}
+
+/// The same, with the offset in the ellipse.
+fn mirrored_corner(
+    matrix: Mat4,
+    centre: Vec3,
+    normal: Vec3,
+    radius: f32,
+    map_size: f32,
+    corner: Vec2,
+) -> ([f32; 3], Vec2) {
     let rows = matrix.transpose();
     let clip = matrix * centre.extend(1.0);
     let place = clip.truncate() / clip.w;
@@ -291,7 +303,7 @@ fn mirrored(matrix: Mat4, centre: Vec3, normal: Vec3, radius: f32, map_size: f32
     let across = |v: Vec3| v - normal * normal.dot(v);
     let of_w = across(w);
     if !(clip.w > 0.0 && of_w.dot(of_w) < 1.0) {
-        return [0.0, 0.0, -2.0];
+        return ([0.0, 0.0, -2.0], Vec2::ZERO);
     }
     let span = |place: f32, v: Vec3| {
         let (mixed, rest) = (v.dot(of_w), 1.0 - of_w.dot(of_w));
@@ -300,15 +312,34 @@ fn mirrored(matrix: Mat4, centre: Vec3, normal: Vec3, radius: f32, map_size: f32
     let [(at_x, half_x), (at_y, half_y), (_, half_z)] =
         [span(place.x, across(x)), span(place.y, across(y)), span(place.z, across(z))];
     let half = Vec2::new(half_x, half_y);
-    let grown = half.max(Vec2::splat((1.0 + 1.0 / 128.0) / map_size));
-    let at = Vec2::new(at_x, at_y) + corner * grown;
+    let least = (1.0 + 1.0 / 128.0) / map_size;
+    let grown = half.max(Vec2::splat(least));
+    let from_middle = corner * grown;
+    let at = Vec2::new(at_x, at_y) + from_middle;
     let turned = normal.dot(x.cross(y));
     let slopes = Vec2::new(normal.dot(z.cross(y)), normal.dot(x.cross(z)));
     let deepest = 4.0 * half_z;
     let reach = slopes.abs().dot(half);
     let divisor = (turned.abs() * deepest).max(reach);
     let limited = if divisor > 0.0 { deepest / divisor } else { 0.0 } * if turned >= 0.0 { 1.0 } else { -1.0 };
-    [at.x, at.y, place.z + limited * slopes.dot(at - place.truncate())]
+    let depth = place.z + limited * slopes.dot(at - place.truncate());
+    let rest = 1.0 - of_w.dot(of_w);
+    let (x, y) = (across(x), across(y));
+    let mixed = x.dot(of_w) * y.dot(of_w) / (rest * rest) + x.dot(y) / rest;
+    ([at.x, at.y, depth], mirrored_offset(half / least, mixed / (least * least), from_middle / least))
+}
+
+fn mirrored_offset(half: Vec2, mixed: f32, from_middle: Vec2) -> Vec2 {
+    let squared = half * half;
+    let mean = 0.5 * (squared.x + squared.y);
+    let apart = Vec2::new(0.5 * (squared.x - squared.y), mixed).length();
+    let shorter = (mean - apart).max(2.0);
+    let more = shorter - (mean - apart);
+    let longer = mean + apart + more;
+    let x = (squared.x + more).sqrt();
+    let y = shorter.sqrt() * longer.sqrt() / x;
+    let grid = 1.0 + 1.0 / (64.0 * shorter.sqrt());
+    Vec2::new(from_middle.x / x, (from_middle.y - mixed / (x * x) * from_middle.x) / y) / grid
 }
 
 const CORNERS: [Vec2; 4] = [Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0), Vec2::new(-1.0, 1.0), Vec2::new(1.0, 1.0)];
@@ -410,6 +441,70 @@ fn the_shader_gives_a_disc_the_depth_of_its_plane() {
     assert!(deep > 10_000, "{deep} depths");
 }
 
+/// The offset at a place of the rectangle, as it is interpolated: corner 0 is the first, 1 next to it in x, 2 in y.
+fn offset_at([a, b, c]: [Vec2; 3], part: Vec2) -> Vec2 {
+    a + part.x * (b - a) + part.y * (c - a)
+}
+
+/// A point on a disc's rim falls where the offset is 1 long, less the two parts in a hundred at most that are for the
+/// rasteriser's grid; points inside where it is shorter, points outside, in the disc's plane, where it is longer.
+#[test]
+fn the_shader_tells_discs_from_their_rectangles() {
+    let mut numbers = Numbers(5);
+    let (mut on_rim, mut beside) = (0, 0);
+    for warp in [Warp::Uniform, Warp::Perspective] {
+        let map = landscape(&Settings::default().with_warp(warp));
+        for _ in 0..2000 {
+            let centre = DVec3::new(20.0 * numbers.part() - 10.0, numbers.part(), 8.0 - 16.0 * numbers.part());
+            let (normal, radius) = (direction(&mut numbers), 0.05 + 0.8 * numbers.part());
+            let corners = [CORNERS[0], CORNERS[1], CORNERS[2]].map(|corner| {
+                mirrored_corner(map.matrix(), centre.as_vec3(), normal.as_vec3(), radius as f32, 2048.0, corner)
+            });
+            let [a, b, c] = corners.map(|(corner, _)| Vec3::from(corner).truncate().as_dvec2());
+            let offsets = corners.map(|(_, offset)| offset);
+            let (x, y) = normal.any_orthonormal_pair();
+            let offset_of = |share: f64, turn: f64| {
+                let way = DVec2::from_angle(turn);
+                let point = centre + share * radius * (way.x * x + way.y * y);
+                let place = map.shadow_from_world().project_point3(point).truncate();
+                offset_at(offsets, ((place - a) / DVec2::new(b.x - a.x, c.y - a.y)).as_vec2()).length()
+            };
+            let turns = || (0..24).map(|i| 0.26 * f64::from(i));
+            let rim: Vec<f32> = turns().map(|turn| offset_of(1.0, turn)).collect();
+            let (least, most) = rim.iter().fold((f32::INFINITY, 0.0_f32), |(a, b), &rim| (a.min(rim), b.max(rim)));
+            // The rim lies in what is kept, whether or not its ellipse was widened.
+            assert!(most <= 1.0, "{centre}, {normal}, {radius}: {most}");
+            // Of one that was not, it is its edge.
+            if least > 0.98 {
+                on_rim += 1;
+                assert!(turns().all(|turn| offset_of(0.97, turn) < 1.0), "{centre}, {normal}, {radius}");
+                assert!(turns().all(|turn| offset_of(1.03, turn) > 1.0), "{centre}, {normal}, {radius}");
+                let outside = CORNERS.map(|corner| offset_at(offsets, 0.5 * (corner + 1.0)).length() > 1.0);
+                beside += usize::from(outside == [true; 4]);
+            }
+        }
+    }
+    assert!(on_rim > 1000 && beside > on_rim / 2, "{on_rim} discs, {beside} with four corners beside them");
+}
+
+/// Wherever an ellipse falls, and however small or narrow it is, what is kept of its rectangle holds the middle of a
+/// texel: it holds a square a texel large. Those no larger than a texel keep all of the rectangle.
+#[test]
+fn what_is_kept_of_a_splat_holds_the_middle_of_a_texel() {
+    let mut numbers = Numbers(23);
+    for _ in 0..20_000 {
+        let half = DVec2::new(numbers.part(), numbers.part()).map(|part| 30.0 * part * part * part).as_vec2();
+        let mixed = half.x * half.y * (2.0 * numbers.part() - 1.0) as f32;
+        for corner in CORNERS {
+            // Half of the least rectangle is 1.
+            let kept = mirrored_offset(half, mixed, corner).length();
+            assert!(kept <= 1.0, "{half}, {mixed}: {kept}");
+            let own = mirrored_offset(half, mixed, corner * half.max(Vec2::ONE)).length();
+            assert!(half.max_element() > 1.0 || own <= 1.0, "{half}, {mixed}: {own}");
+        }
+    }
+}
+
 #[cfg(feature = "wgsl")]
 #[test]
 fn the_shader_functions_are_valid_wgsl() {
@@ -421,6 +516,7 @@ fn the_shader_functions_are_valid_wgsl() {
     let names: Vec<_> = module.functions.iter().filter_map(|(_, function)| function.name.as_deref()).collect();
     assert!(names.iter().all(|name| name.starts_with("shadowfit_")), "{names:?}");
     assert!(names.contains(&"shadowfit_disc_splat") && names.contains(&"shadowfit_ball_splat"), "{names:?}");
+    assert!(names.contains(&"shadowfit_splat_corner"), "{names:?}");
     let result = Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(&module);
     assert!(result.is_ok(), "{}", result.unwrap_err().emit_to_string(source));
 }

@@ -203,7 +203,7 @@ pub struct MapArgs {
     pub format: FormatArg,
 
     /// Which sides of triangles are drawn into the map, as the light sees them; second draws the far sides of solids and both
-    /// sides of sheets, and needs no bias
+    /// sides of sheets, layers the first two surfaces, read halfway between them; neither is given a bias
     #[arg(long, value_enum, default_value_t = Faces::All)]
     pub faces: Faces,
 

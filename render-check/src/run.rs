@@ -56,7 +56,7 @@ impl Options {
         }
     }
 
-    /// How a map is drawn: without a bias for second depth and virtual samples, which do without.
+    /// How a map is drawn: without a bias for second depth, layers and virtual samples, which do without.
     ///
     /// # Errors
     ///
@@ -64,7 +64,7 @@ impl Options {
     pub fn pass(&self, map: &Map) -> Result<MapPass> {
         let (bias, receiver) = match (self.bias, self.faces, self.filter) {
             (Some(bias), ..) => (bias, 0.0),
-            (None, Faces::Second, _) | (None, _, Filter::Virtual(_)) => (Bias::NONE, 0.0),
+            (None, Faces::Second | Faces::Layers, _) | (None, _, Filter::Virtual(_)) => (Bias::NONE, 0.0),
             _ => {
                 let enough = map.bias(self.format, self.filter.reach()).context("there is no such filter")?;
                 (Bias { constant: enough.constant, slope: enough.slope }, enough.receiver)

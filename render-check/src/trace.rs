@@ -33,6 +33,8 @@ pub enum Faces {
     Back,
     /// The far sides of solids, and both sides of sheets: second depth
     Second,
+    /// Both, twice: the first two surfaces along a ray, tested against the middle of them
+    Layers,
 }
 
 impl Faces {
@@ -44,6 +46,7 @@ impl Faces {
             Self::Front => Culling::Back,
             Self::Back => Culling::Front,
             Self::Second => DepthTest::Second.culling(solidity),
+            Self::Layers => DepthTest::BetweenLayers.culling(solidity),
         }
     }
 }
@@ -136,7 +139,9 @@ impl<'a> Tracer<'a> {
     pub fn first_hit_of(&self, ray: &Ray, faces: Faces) -> Option<Hit> {
         let culled = |mode| self.tree.cast_local_ray_with_culling(&ray_to_parry(ray), ray.length, mode);
         let found = match faces {
-            Faces::All => self.tree.cast_local_ray_and_get_normal(&ray_to_parry(ray), ray.length, false),
+            Faces::All | Faces::Layers => {
+                self.tree.cast_local_ray_and_get_normal(&ray_to_parry(ray), ray.length, false)
+            }
             Faces::Front => culled(RayCullingMode::IgnoreBackfaces),
             // Backs, which are drawn of all objects but those inside out.
             Faces::Back | Faces::Second => culled(RayCullingMode::IgnoreFrontfaces),

@@ -178,7 +178,7 @@ fn wrong_pixels_shrink_with_the_texels() {
 fn every_filter_and_side_misses_no_caster() {
     // Back faces with a bias let light through where a solid stands on the floor.
     for run in sweep("filters", 0.016) {
-        let (faces, counts) = (faces(&run), verdict(&run).expect("a map").counts);
+        let (faces, counts) = (pass(&run).faces, verdict(&run).expect("a map").counts);
         if faces == Faces::Back {
             assert!(counts.fraction(counts.false_shadow) < 1e-4, "{run}: {counts:?}");
         } else {
@@ -211,6 +211,61 @@ fn leaves_are_edges_and_little_else() {
     }
 }
 
+/// What is left of second depth lies at edges of solids and is gone with virtual samples.
+#[test]
+fn a_table_needs_no_bias_at_any_size() {
+    for run in sweep("table", 0.0056) {
+        let counts = verdict(&run).expect("a map").counts;
+        let most = match (pass(&run).faces, run.run.filter) {
+            (Faces::All, _) => 0.0056,
+            (_, Filter::Nearest) => 0.0009,
+            _ => 0.0001,
+        };
+        assert!(counts.fraction(counts.faults()) <= most, "{run}: {counts:?}");
+    }
+}
+
+/// Virtual samples keep sheets from shadowing themselves. The middle of two layers does where nothing lies close below:
+/// not with slabs laid in sand, which the map sees a texel's depth above it.
+#[test]
+fn sheets_need_virtual_samples_and_not_two_layers() {
+    for run in sweep("open-sheets", 0.57) {
+        let counts = verdict(&run).expect("a map").counts;
+        let faults = counts.fraction(counts.faults());
+        match (pass(&run).faces, run.case.starts_with("leaves")) {
+            (Faces::Layers, false) => assert!(faults <= 0.0016, "{run}: {counts:?}"),
+            (Faces::Layers, true) => assert!(counts.fraction(counts.false_light) <= 0.0022, "{run}: {counts:?}"),
+            _ => assert!(faults <= 0.0002, "{run}: {counts:?}"),
+        }
+    }
+}
+
+/// On the first surface they leave what rasterisers make of triangles a texel wide and a thousand long, the street's kerbs;
+/// on the second the insides of solids besides, next to creases and feet, where it is too bright.
+#[test]
+fn virtual_samples_need_no_bias_in_any_format() {
+    for run in sweep("virtual", 0.0028) {
+        let counts = verdict(&run).expect("a map").counts;
+        let most_light = if pass(&run).faces == Faces::Second { 0.0014 } else { 0.0001 };
+        let most_shadow = match (run.case.starts_with("street"), run.run.filter, pass(&run).faces) {
+            (true, Filter::Virtual(2), Faces::Second) => 0.0008,
+            (true, Filter::Virtual(2), _) => 0.0028,
+            _ => 0.0001,
+        };
+        assert!(counts.fraction(counts.false_light) <= most_light, "{run}: {counts:?}");
+        assert!(counts.fraction(counts.false_shadow) <= most_shadow, "{run}: {counts:?}");
+    }
+}
+
+/// No pixel at all was false, drawn either way: two are allowed.
+#[test]
+fn clouds_cast_as_hexagons_and_as_splats() {
+    for run in sweep("points", 0.0001) {
+        let counts = verdict(&run).expect("a map").counts;
+        assert!(counts.shadowed * 20 > counts.compared, "{run}: {counts:?}");
+    }
+}
+
 fn verdict(run: &SweepRun) -> Option<&Verdict> {
     match &run.run.result {
         render_check::report::RunResult::Maps(maps) => Some(&maps.verdict),
@@ -218,10 +273,10 @@ fn verdict(run: &SweepRun) -> Option<&Verdict> {
     }
 }
 
-fn faces(run: &SweepRun) -> Faces {
+fn pass(run: &SweepRun) -> MapPass {
     match &run.run.result {
-        render_check::report::RunResult::Maps(maps) => maps.maps[0].pass.faces,
-        render_check::report::RunResult::NoMap { .. } => Faces::All,
+        render_check::report::RunResult::Maps(maps) => maps.maps[0].pass,
+        render_check::report::RunResult::NoMap { .. } => panic!("{run}: no map"),
     }
 }
 
@@ -419,8 +474,7 @@ fn a_warp_pays_once_the_view_is_narrowed() {
     assert!(2.0 * narrow < wide, "{wide} and narrowed {narrow}");
 }
 
-/// Points as single texels let light through; as rectangles of their discs they do not, though these cast a little more
-/// than the discs do, where a warp shears them most.
+/// Points as single texels let light through; as their discs they do not, and cast no more than they should.
 #[test]
 fn a_cloud_of_splats_has_no_holes() {
     let scene = scene::load(Path::new("cloud")).expect("built in");
@@ -440,7 +494,7 @@ fn a_cloud_of_splats_has_no_holes() {
             assert_eq!((discs.missing, splats.missing), (0, 0), "{spec}, {technique}");
             assert!(discs.fraction(discs.faults()) < 0.0005, "{spec}, {technique}: {discs:?}");
             assert!(splats.fraction(splats.false_light) < 0.0001, "{spec}, {technique}: {splats:?}");
-            assert!(splats.fraction(splats.false_shadow) < 0.0025, "{spec}, {technique}: {splats:?}");
+            assert!(splats.fraction(splats.false_shadow) < 0.0001, "{spec}, {technique}: {splats:?}");
             // More than a third of all that is in shadow shines through.
             let through = texels.missing + texels.false_light;
             assert!(3 * through > texels.shadowed, "{spec}, {technique}: {texels:?}");

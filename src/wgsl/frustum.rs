@@ -49,6 +49,26 @@ pub const FILTERS: &str = include_str!("filters.wgsl");
 /// ```
 pub const VIRTUAL_SAMPLES: &str = include_str!("virtual_samples.wgsl");
 
+/// Depth between two layers ([`DepthTest::BetweenLayers`](crate::DepthTest)), of the nearest texel (one tap) or N × N. They
+/// need [`FILTERS`] before them.
+///
+/// The first function is for the fragments of the second pass, which draws the same triangles with the same vertex shader
+/// and matrix into a map of its own, with `first_layer` to read from: what it answers `false` for is to be discarded. The
+/// position must be `@invariant` in both passes. `gap` is twice
+/// [`Map::comparison_tolerance`](crate::Map::comparison_tolerance), once for each of the two depths, so that neither the
+/// rounding to the format nor a second triangle in the same plane makes a layer.
+///
+/// ```wgsl
+/// fn shadowfit_is_behind(
+///     first_layer: shadowfit_Map, layer: i32, fragment: vec4<f32>, gap: f32, reversed: bool,
+/// ) -> bool
+/// fn shadowfit_between_layers(
+///     first_layer: shadowfit_Map, second_layer: shadowfit_Map, layer: i32, projected: vec3<f32>, taps: i32,
+///     reversed: bool,
+/// ) -> f32
+/// ```
+pub const BETWEEN_LAYERS: &str = include_str!("between_layers.wgsl");
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -66,7 +86,7 @@ mod tests {
     #[test]
     fn the_functions_are_valid_and_theirs_are_the_only_names() {
         for map in [MAP, MAP_ARRAY] {
-            let texts = [PROJECT, map, FILTERS, VIRTUAL_SAMPLES];
+            let texts = [PROJECT, map, FILTERS, VIRTUAL_SAMPLES, BETWEEN_LAYERS];
             for count in 1..=texts.len() {
                 let text = texts[..count].concat();
                 let module = validated(&text);
@@ -94,12 +114,17 @@ mod tests {
                 let mean = shadowfit_virtual_mean(map, 0, projected, slopes, 3, 1e-6, true);
                 let nearest = shadowfit_nearest(map, 0, projected, false);
                 let hardware = shadowfit_hardware(map, 1, compare, projected);
+                let between = shadowfit_between_layers(map, second, 0, projected, 3, false);
+                if (!shadowfit_is_behind(map, 0, vec4(projected, 1.0), 1e-6, false)) {
+                    discard;
+                }
                 return vec4(blended.share, mean.share, nearest, hardware)
-                    * shadowfit_percentage_closer(map, 0, projected, 5, true);
+                    * shadowfit_percentage_closer(map, 0, projected, 5, true) * between;
             }";
         for (map, kind) in [(MAP, "texture_depth_2d"), (MAP_ARRAY, "texture_depth_2d_array")] {
-            let binding = format!("@group(0) @binding(0) var map: {kind};\n");
-            validated(&[PROJECT, map, FILTERS, VIRTUAL_SAMPLES, &binding, shader].concat());
+            let bindings =
+                format!("@group(0) @binding(0) var map: {kind};\n@group(0) @binding(3) var second: {kind};\n");
+            validated(&[PROJECT, map, FILTERS, VIRTUAL_SAMPLES, BETWEEN_LAYERS, &bindings, shader].concat());
         }
     }
 }

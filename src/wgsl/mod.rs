@@ -6,7 +6,7 @@
 
 mod frustum;
 
-pub use frustum::{FILTERS, MAP, MAP_ARRAY, PROJECT, VIRTUAL_SAMPLES};
+pub use frustum::{BETWEEN_LAYERS, FILTERS, MAP, MAP_ARRAY, PROJECT, VIRTUAL_SAMPLES};
 
 /// Paraboloid maps: `shadowfit_paraboloid_clip` for the vertices of casters, `shadowfit_paraboloid_texture` for what reads
 /// the map. See [`Paraboloid`](crate::Paraboloid).
@@ -19,4 +19,8 @@ pub const PARABOLOID: &str = include_str!("paraboloid.wgsl");
 ///   in, `map_size` is the map's size as an f32, and `corner` has coordinates −1 or 1.
 /// - `shadowfit_ball_splat(shadow_from_world, centre, radius, map_size, corner)`: the same of a ball, see
 ///   [`Map::splat`](crate::Map::splat).
+/// - `shadowfit_splat_corner(shadow_from_world, centre, normal, radius, map_size, corner)`: the same corner as
+///   `struct shadowfit_SplatCorner { clip: vec4<f32>, offset: vec2<f32> }`, of a ball with a normal of zero. A fragment
+///   shader that gets `offset`, interpolated, and discards where it is longer than 1 draws discs and not rectangles, see
+///   [`Splat`](crate::Splat).
 pub const SPLAT: &str = include_str!("splat.wgsl");

@@ -40,7 +40,8 @@ impl PipelineKind<'_> {
             primitive: self.primitive,
             depth_stencil: self.depth.clone(),
             multisample: wgpu::MultisampleState::default(),
-            fragment: (!targets.is_empty()).then_some(wgpu::FragmentState {
+            // A depth buffer alone needs a fragment stage only to leave fragments out.
+            fragment: self.shader.contains("@fragment").then_some(wgpu::FragmentState {
                 module,
                 entry_point: Some("fragment"),
                 compilation_options,

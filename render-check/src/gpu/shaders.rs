@@ -8,6 +8,12 @@ pub(super) const SURFACES: &str = include_str!("shaders/surfaces.wgsl");
 /// Casters into a shadow map.
 pub(super) const SHADOW_MAP: &str = include_str!("shaders/shadow_map.wgsl");
 
+/// The same, but for what lies in the first layer.
+pub(super) fn second_layer() -> String {
+    let own = include_str!("shaders/second_layer.wgsl");
+    [wgsl::MAP, wgsl::FILTERS, wgsl::BETWEEN_LAYERS, SHADOW_MAP, own].concat()
+}
+
 /// The discs of points into a shadow map, as the crate's shader function places them.
 pub(super) fn splats() -> String {
     [shadowfit::wgsl::SPLAT, include_str!("shaders/splats.wgsl")].concat()
@@ -40,6 +46,11 @@ pub(super) fn virtual_samples() -> String {
     shadow_test(include_str!("shaders/virtual_samples.wgsl"))
 }
 
+/// See [`nearest`].
+pub(super) fn between_layers() -> String {
+    shadow_test(include_str!("shaders/between_layers.wgsl"))
+}
+
 fn shadow_test(lookup: &str) -> String {
     let own = [
         include_str!("shaders/full_screen.wgsl"),
@@ -47,7 +58,8 @@ fn shadow_test(lookup: &str) -> String {
         include_str!("shaders/frustum.wgsl"),
         lookup,
     ];
-    [wgsl::PROJECT, wgsl::MAP_ARRAY, wgsl::FILTERS, wgsl::VIRTUAL_SAMPLES].into_iter().chain(own).collect()
+    let functions = [wgsl::PROJECT, wgsl::MAP_ARRAY, wgsl::FILTERS, wgsl::VIRTUAL_SAMPLES, wgsl::BETWEEN_LAYERS];
+    functions.into_iter().chain(own).collect()
 }
 
 #[cfg(test)]
@@ -62,6 +74,7 @@ mod tests {
         for (name, source) in [
             ("surfaces", SURFACES),
             ("shadow map", SHADOW_MAP),
+            ("second layer", &second_layer()),
             ("splats", &splats()),
             ("copy depth", COPY_DEPTH),
             ("depth ends", DEPTH_ENDS),
@@ -69,6 +82,7 @@ mod tests {
             ("hardware", &hardware()),
             ("percentage closer", &percentage_closer()),
             ("virtual samples", &virtual_samples()),
+            ("between layers", &between_layers()),
         ] {
             let module = wgsl::parse_str(source).unwrap_or_else(|e| panic!("{name}: {}", e.emit_to_string(source)));
             let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());

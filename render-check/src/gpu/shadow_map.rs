@@ -61,10 +61,12 @@ pub struct MapDraw<'a> {
 
 /// The shadow maps of a light on the card, the layers of one texture.
 pub struct ShadowMaps {
-    /// All layers.
+    /// All maps' layers.
     pub(super) view: wgpu::TextureView,
     /// One by one.
     layers: Vec<wgpu::TextureView>,
+    /// What lies behind the first surfaces, of a light whose maps are tested between layers.
+    pub(super) behind: Option<LayerArray>,
     /// The map in each layer, and what receivers are to be tested with.
     pub(super) maps: Vec<(Map, Offset)>,
     pub(super) format: DepthFormat,
@@ -87,8 +89,10 @@ impl ShadowMaps {
         ensure!(split.parts() == maps.len(), "a light in {} parts has {} maps", split.parts(), maps.len());
         let drawn: Vec<&MapDraw<'_>> = maps.iter().flatten().collect();
         let first = drawn.first().context("none of the parts of the light needs a map")?;
-        let of =
-            |draw: &MapDraw<'_>| (draw.map.settings().map_size(), draw.pass.format, draw.map.settings().clip());
+        let has_second = |draw: &MapDraw<'_>| draw.pass.faces == Faces::Layers;
+        let of = |draw: &MapDraw<'_>| {
+            (draw.map.settings().map_size(), draw.pass.format, draw.map.settings().clip(), has_second(draw))
+        };
         ensure!(drawn.iter().all(|draw| of(draw) == of(first)), "the maps of a light differ in size or format");
         let (size, largest) = (first.map.settings().map_size(), gpu.largest_texture());
         ensure!(size <= largest, "{} holds maps of {largest} texels a side, not of {size}", gpu.name());
@@ -99,21 +103,18 @@ impl ShadowMaps {
                 DepthFormat::Unorm24 => wgpu::TextureFormat::Depth24Plus,
                 DepthFormat::Float32 => wgpu::TextureFormat::Depth32Float,
             };
-            let texture = gpu.layers([size, size], drawn.len() as u32, format);
-            let view = |dimension, base_array_layer, array_layer_count| {
-                texture.create_view(&wgpu::TextureViewDescriptor {
-                    dimension: Some(dimension),
-                    base_array_layer,
-                    array_layer_count: Some(array_layer_count),
-                    ..Default::default()
-                })
-            };
-            let layers: Vec<_> =
-                (0..drawn.len() as u32).map(|layer| view(wgpu::TextureViewDimension::D2, layer, 1)).collect();
+            let array = || LayerArray::new(gpu, size, drawn.len() as u32, format);
+            let (nearest, behind) = (array(), has_second(first).then(array));
             let mut time = Some(Duration::ZERO);
-            for (draw, layer) in drawn.iter().zip(&layers) {
-                let took = draw_layer(gpu, geometry, draw, layer, format)?;
-                time = time.zip(took).map(|(sum, took)| sum + took);
+            for (index, draw) in drawn.iter().enumerate() {
+                let target = &nearest.one_by_one[index];
+                let took = draw_layer(gpu, geometry, draw, target, format, None)?;
+                let again = behind.as_ref().map(|layers| &layers.one_by_one[index]);
+                let took_again = match again {
+                    Some(second) => draw_layer(gpu, geometry, draw, second, format, Some(target))?,
+                    None => Some(Duration::ZERO),
+                };
+                time = time.zip(took).zip(took_again).map(|((sum, took), again)| sum + took + again);
             }
             let mut layer = -1.0;
             let parts = split.axes().iter().zip(maps).map(|(axis, map)| {
@@ -125,9 +126,10 @@ impl ShadowMaps {
                 Ok((*draw.map, offset))
             };
             Ok(Self {
-                view: view(wgpu::TextureViewDimension::D2Array, 0, drawn.len() as u32),
+                view: nearest.all,
                 parts: parts.collect(),
-                layers,
+                layers: nearest.one_by_one,
+                behind,
                 format: first.pass.format,
                 maps: drawn.iter().map(|draw| receiver(draw)).collect::<Result<_>>()?,
                 light: (split.position() - geometry.origin()).as_vec3(),
@@ -136,7 +138,8 @@ impl ShadowMaps {
         })
     }
 
-    /// The depths of each layer as they are stored, row by row from the top of the map (y = 1 in wgpu's clip space).
+    /// The depths of each map, of its first layer, as they are stored, row by row from the top of the map (y = 1 in wgpu's
+    /// clip space).
     ///
     /// # Errors
     ///
@@ -147,13 +150,38 @@ impl ShadowMaps {
     }
 }
 
-/// Draws a map into a layer; how long the card took.
+/// A texture with a layer for each map.
+pub(super) struct LayerArray {
+    pub(super) all: wgpu::TextureView,
+    pub(super) one_by_one: Vec<wgpu::TextureView>,
+}
+
+impl LayerArray {
+    fn new(gpu: &Gpu, size: u32, count: u32, format: wgpu::TextureFormat) -> Self {
+        let texture = gpu.layers([size, size], count, format);
+        let view = |dimension, base_array_layer, array_layer_count| {
+            texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(dimension),
+                base_array_layer,
+                array_layer_count: Some(array_layer_count),
+                ..Default::default()
+            })
+        };
+        Self {
+            all: view(wgpu::TextureViewDimension::D2Array, 0, count),
+            one_by_one: (0..count).map(|layer| view(wgpu::TextureViewDimension::D2, layer, 1)).collect(),
+        }
+    }
+}
+
+/// Draws a map into a layer; where a first one is given, without what that holds. How long the card took.
 fn draw_layer(
     gpu: &Gpu,
     geometry: &Geometry,
     draw: &MapDraw<'_>,
     layer: &wgpu::TextureView,
     format: wgpu::TextureFormat,
+    first_layer: Option<&wgpu::TextureView>,
 ) -> Result<Option<Duration>> {
     let clip = draw.map.settings().clip();
     let reversed = clip.depth.is_reversed();
@@ -168,6 +196,15 @@ fn draw_layer(
     };
     let depth = depth_state(format, compare, bias);
     let light = gpu.uniforms(&[draw.map.matrix(), raster_from_clip(clip)]);
+    let mut resources = vec![light.as_entire_binding()];
+    let (mut shader, mut constants) = (shaders::SHADOW_MAP.to_owned(), Vec::new());
+    if let Some(first_layer) = first_layer {
+        ensure!(draw.pass.points == Points::Discs, "between layers points are drawn as discs");
+        shader = shaders::second_layer();
+        let gap = 2.0 * draw.map.comparison_tolerance(draw.pass.format);
+        constants.extend([("gap", gap), ("reversed", f64::from(u8::from(reversed)))]);
+        resources.push(wgpu::BindingResource::TextureView(first_layer));
+    }
     let (triangles, discs) = match draw.pass.points {
         Points::Discs => (draw.casters.to_vec(), Vec::new()),
         Points::Splats | Points::Texels => geometry.without_discs(draw.casters),
@@ -177,8 +214,8 @@ fn draw_layer(
     let mut add = |took: Option<Duration>| time = time.zip(took).map(|(sum, took)| sum + took);
     for (cull_mode, draws) in batches(geometry, &triangles, draw.pass.faces) {
         let pipeline = PipelineKind {
-            shader: shaders::SHADOW_MAP,
-            constants: &[],
+            shader: &shader,
+            constants: &constants,
             takes_geometry: true,
             // The meshes' fronts are counter-clockwise, and the crate's maps mirror nothing.
             primitive: wgpu::PrimitiveState { front_face: wgpu::FrontFace::Ccw, cull_mode, ..Default::default() },
@@ -188,7 +225,7 @@ fn draw_layer(
         .build(gpu);
         let pass = Pass {
             pipeline: &pipeline,
-            bindings: &gpu.bindings(&pipeline, &[light.as_entire_binding()]),
+            bindings: &gpu.bindings(&pipeline, &resources),
             colours: &[],
             depth: Some((layer, load)),
             geometry: Some(geometry),

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 use std::time::Duration;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use shadowfit::glam::{Mat4, Vec3};
 use shadowfit::{ClipSpace, Map, Offset, TextureOrigin, YAxis};
 
@@ -93,7 +93,7 @@ pub struct Shadows {
 ///
 /// # Errors
 ///
-/// When the card refuses.
+/// When the card refuses, or when maps to be tested between layers are read with a filter that cannot.
 pub fn shadow_test(gpu: &Gpu, surfaces: &Surfaces, shadow_maps: &ShadowMaps, filter: Filter) -> Result<Shadows> {
     gpu.guarded("the shadow test", || shadow_test_unguarded(gpu, surfaces, shadow_maps, filter))
 }
@@ -106,12 +106,19 @@ fn shadow_test_unguarded(
 ) -> Result<Shadows> {
     // The layers of a texture are alike in this.
     let reversed = shadow_maps.maps.iter().any(|(map, _)| map.settings().clip().depth.is_reversed());
-    let (shader, taps) = match filter {
-        Filter::Nearest => (shaders::nearest(), None),
-        Filter::Hardware => (shaders::hardware(), None),
-        Filter::PercentageCloser(taps) => (shaders::percentage_closer(), Some(("taps", f64::from(taps)))),
-        Filter::Virtual(taps) => (shaders::virtual_samples(), Some(("taps", f64::from(taps)))),
+    let behind = shadow_maps.behind.as_ref().map(|behind| &behind.all);
+    let (shader, taps) = match (filter, behind) {
+        (Filter::Nearest, None) => (shaders::nearest(), None),
+        (Filter::Hardware, None) => (shaders::hardware(), None),
+        (Filter::PercentageCloser(taps), None) => (shaders::percentage_closer(), Some(taps)),
+        (Filter::Virtual(taps), None) => (shaders::virtual_samples(), Some(taps)),
+        (Filter::Nearest, Some(_)) => (shaders::between_layers(), Some(1)),
+        (Filter::PercentageCloser(taps), Some(_)) => (shaders::between_layers(), Some(taps)),
+        (Filter::Hardware | Filter::Virtual(_), Some(_)) => {
+            bail!("the middle of two layers is read with nearest or pcfN, not with {filter}")
+        }
     };
+    let taps = taps.map(|taps| ("taps", f64::from(taps)));
     let mut constants = vec![];
     // The hardware's comparison is the sampler's own.
     if filter != Filter::Hardware {
@@ -152,6 +159,7 @@ fn shadow_test_unguarded(
         split.as_entire_binding(),
         layers.as_entire_binding(),
     ];
+    resources.extend(behind.map(wgpu::BindingResource::TextureView));
     match filter {
         Filter::Nearest | Filter::PercentageCloser(_) => {}
         Filter::Hardware => resources.push(wgpu::BindingResource::Sampler(&sampler)),

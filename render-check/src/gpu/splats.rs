@@ -15,7 +15,7 @@ pub enum Points {
     /// The hexagon of its disc, four triangles like any others
     #[default]
     Discs,
-    /// The rectangle that its disc just fits into, by the crate's shader function
+    /// Its disc, cut from the rectangle that it just fits into, by the crate's shader function
     Splats,
     /// A single texel: full of holes where points are farther apart than texels
     Texels,

@@ -7,7 +7,7 @@ use super::*;
 use crate::picture::{DepthMap, Lens};
 use crate::scene::{self, Mesh};
 use crate::split::Split;
-use crate::trace::{Faces, Tracer};
+use crate::trace::{Faces, Hit, Ray, Tracer};
 
 const IMAGE: [u32; 2] = [160, 100];
 const MAP: u32 = 128;
@@ -191,6 +191,70 @@ fn virtual_samples_on_the_card_are_those_of_the_crate() {
             assert!(same * 50 >= compared * 49, "{same} of {compared} pixels, {taps} taps, {clip:?}");
             assert!(of_plane * 2 > compared, "{of_plane} of {compared}");
         }
+    }
+}
+
+#[test]
+fn the_second_layer_is_the_next_surface_that_rays_meet() {
+    for clip in [ClipSpace::WGPU, ClipSpace::VULKAN.reversed()] {
+        let stage = stage(clip);
+        let tracer = Tracer::new(&stage.mesh).expect("it has triangles");
+        let lens = Lens::new(stage.map.shadow_from_world_in(ClipSpace::WGPU)).expect("invertible");
+        let geometry = Geometry::upload(&stage.gpu, &stage.mesh, stage.view.eye()).expect("it fits");
+        for format in [DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32] {
+            let (bias, points) = (Bias::NONE, Points::Discs);
+            let pass = MapPass { format, faces: Faces::Layers, bias, receiver: 0.0, points };
+            let all = 0..stage.mesh.triangles.len() as u32;
+            let draw = MapDraw { map: &stage.map, casters: std::slice::from_ref(&all), pass };
+            let maps = ShadowMaps::draw(&stage.gpu, &geometry, &Split::whole(), &[Some(draw)]).expect("drawn");
+            let behind = &maps.behind.as_ref().expect("asked for").one_by_one[0];
+            let behind = read_back::depths(&stage.gpu, behind, MAP).expect("readable");
+            let first = maps.depths(&stage.gpu).expect("readable").remove(0);
+            let away = |depth: f32| f64::from(if clip.depth.is_reversed() { 1.0 - depth } else { depth });
+            let gap = 2.0 * stage.map.comparison_tolerance(format);
+            let (mut same, mut beyond) = (0, 0);
+            for (i, (first, behind)) in first.into_iter().zip(behind).enumerate() {
+                let (first, behind) = (away(first), away(behind));
+                assert!(first == 1.0 || behind - first > 0.5 * gap, "{first} and {behind}");
+                let ray = lens.ray_through_pixel(i as u32 % MAP, i as u32 / MAP, MAP, MAP).expect("in front");
+                let met = |hit: &Hit| lens.project(hit.point).z;
+                let mut next = tracer.first_hit(&ray);
+                while let Some(hit) = next.filter(|hit| met(hit) <= first + gap) {
+                    let origin = hit.point + 1e-6 * ray.direction;
+                    next = tracer.first_hit(&Ray { origin, ..ray });
+                }
+                let exact = next.map_or(1.0, |hit| met(&hit).min(1.0));
+                same += usize::from((behind - exact).abs() < 1e-3);
+                beyond += usize::from(behind < 1.0);
+            }
+            let all = (MAP * MAP) as usize;
+            assert!(same * 200 >= all * 199, "{same} of {all} texels in {format:?}, {clip:?}");
+            assert!(beyond * 4 > all, "{beyond} of {all} texels have a second layer");
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_tested_between_layers_is_refused() {
+    let stage = stage(ClipSpace::WGPU);
+    let geometry = Geometry::upload(&stage.gpu, &stage.mesh, stage.view.eye()).expect("it fits");
+    let surfaces = Surfaces::draw(&stage.gpu, &geometry, &stage.view, IMAGE).expect("drawn");
+    let all = 0..stage.mesh.triangles.len() as u32;
+    let maps = |points| {
+        let format = DepthFormat::Float32;
+        let pass = MapPass { format, faces: Faces::Layers, bias: Bias::NONE, receiver: 0.0, points };
+        let draw = MapDraw { map: &stage.map, casters: std::slice::from_ref(&all), pass };
+        ShadowMaps::draw(&stage.gpu, &geometry, &Split::whole(), &[Some(draw)])
+    };
+    let splats = maps(Points::Splats).err().expect("refused");
+    assert!(format!("{splats:#}").contains("as discs"), "{splats:#}");
+    let maps = maps(Points::Discs).expect("drawn");
+    for filter in [Filter::Hardware, Filter::Virtual(2)] {
+        let error = shadow_test(&stage.gpu, &surfaces, &maps, filter).err().expect("refused");
+        assert!(format!("{error:#}").contains("nearest or pcfN"), "{error:#}");
+    }
+    for filter in [Filter::Nearest, Filter::PercentageCloser(3)] {
+        assert!(shadow_test(&stage.gpu, &surfaces, &maps, filter).is_ok());
     }
 }
 

@@ -11,7 +11,7 @@ use super::IMAGE;
 use super::lights::{NamedLight, lamps_through_the_plane, suns_across, through_the_back};
 use crate::args::ClipArg;
 use crate::framing::{Camera, choose_view};
-use crate::gpu::Filter;
+use crate::gpu::{Filter, Points};
 use crate::light::LightSpec;
 use crate::run::Options;
 use crate::scene::{self, LoadedScene};
@@ -56,7 +56,7 @@ impl Shot {
 }
 
 /// All groups.
-pub const GROUPS: [Group; 13] = [
+pub const GROUPS: [Group; 17] = [
     Group { name: "classes-of-suns", shots: || Ok(vec![chess_board()?.shot("arc", suns_across)?]) },
     Group { name: "classes-of-lamps", shots: || Ok(vec![chess_board()?.shot("line", lamps_through_the_plane)?]) },
     Group { name: "through-the-back", shots: || Ok(vec![chess_board()?.shot("viewer's back", through_the_back)?]) },
@@ -70,6 +70,16 @@ pub const GROUPS: [Group; 13] = [
     Group { name: "filters", shots: || Ok(vec![lit_chess_board()?.with_options(filters())]) },
     Group { name: "street", shots: street },
     Group { name: "leaves", shots: || Ok(vec![Stand::built_in("leaves")?.own_lights("leaves")?]) },
+    Group {
+        name: "table",
+        shots: || Ok(vec![Stand::built_in("table")?.own_lights("table")?.with_options(solids())]),
+    },
+    Group { name: "open-sheets", shots: open_sheets },
+    Group { name: "virtual", shots: virtual_samples },
+    Group {
+        name: "points",
+        shots: || Ok(vec![Stand::built_in("cloud")?.own_lights("cloud")?.with_options(points())]),
+    },
 ];
 
 fn chess_board() -> Result<Stand> {
@@ -222,4 +232,51 @@ fn filters() -> Vec<Options> {
         }
     }
     all
+}
+
+/// Solids that stand on a floor: the first surface with a bias, the second without, and with virtual samples.
+fn solids() -> Vec<Options> {
+    let ways =
+        [(Faces::All, Filter::Nearest), (Faces::Second, Filter::Nearest), (Faces::Second, Filter::Virtual(2))];
+    let of = |map_size| {
+        ways.map(|(faces, filter)| Options { faces, filter, ..Options::new(Technique::Uniform, map_size) })
+    };
+    [512, 256, 128].into_iter().flat_map(of).collect()
+}
+
+/// Sheets, which are their own second surface, without a bias: with virtual samples, and between two layers.
+fn open_sheets() -> Result<Vec<Shot>> {
+    let ways = [(Faces::Second, Filter::Virtual(2)), (Faces::Layers, Filter::Nearest)];
+    let of = |technique| ways.map(|(faces, filter)| Options { faces, filter, ..Options::new(technique, MAP_SIZE) });
+    let options: Vec<_> = [Technique::Uniform, Technique::Psm].into_iter().flat_map(of).collect();
+    ["ground", "leaves"]
+        .into_iter()
+        .map(|name| Ok(Stand::built_in(name)?.own_lights(name)?.with_options(options.clone())))
+        .collect()
+}
+
+/// Virtual samples in every format, in clip spaces reversed and not, on the first surface and on the second.
+fn virtual_samples() -> Result<Vec<Shot>> {
+    let mut options = Vec::new();
+    for clip in [ClipArg::Wgpu, ClipArg::OpenglReversed] {
+        for format in [DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32] {
+            for (faces, taps) in [(Faces::All, 2), (Faces::All, 3), (Faces::Second, 2), (Faces::Second, 3)] {
+                let filter = Filter::Virtual(taps);
+                options.push(Options { clip, format, faces, filter, ..Options::new(Technique::Uniform, MAP_SIZE) });
+            }
+        }
+    }
+    ["chess-board", "street"]
+        .into_iter()
+        .map(|name| Ok(Stand::built_in(name)?.own_lights(name)?.with_options(options.clone())))
+        .collect()
+}
+
+/// A cloud as hexagons and as splats.
+fn points() -> Vec<Options> {
+    let of = |points| {
+        [Technique::Uniform, Technique::Psm]
+            .map(|technique| Options { points, ..Options::new(technique, MAP_SIZE) })
+    };
+    [Points::Discs, Points::Splats].into_iter().flat_map(of).collect()
 }

@@ -20,6 +20,10 @@
 //! - what the f32 matrix can be off by at that point.
 //!
 //! The receiver's depth may be off by the latter two as well.
+//!
+//! Of a map that is tested between two layers it is the first layer that is looked into. A caster belongs in the map where
+//! that holds it or something nearer, as with first depth; that the middle of the layers may let light past it all the same
+//! is a matter of the test, and false light.
 
 use shadowfit::glam::DVec2;
 

@@ -10,6 +10,6 @@ struct Light {
 @group(0) @binding(0) var<uniform> light: Light;
 
 @vertex
-fn vertex(@location(0) position: vec3<f32>) -> @builtin(position) vec4<f32> {
+fn vertex(@location(0) position: vec3<f32>) -> @invariant @builtin(position) vec4<f32> {
     return light.raster_from_clip * (light.shadow_from_origin * vec4(position, 1.0));
 }

@@ -1,4 +1,4 @@
-// The discs of points as quads into a shadow map. Needs the crate's functions for splats.
+// The discs of points as quads into a shadow map, without the corners of the quads. Needs the crate's functions for splats.
 
 struct Light {
     // The matrix as the crate gives it.
@@ -21,8 +21,13 @@ override map_size: f32 = 1024.0;
 // Of the discs' radii: so little that no disc is larger than a texel makes bare points of them.
 override scale: f32 = 1.0;
 
+struct Corner {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) offset: vec2<f32>,
+}
+
 @vertex
-fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
+fn vertex(@builtin(vertex_index) index: u32) -> Corner {
     // Two triangles a disc: corners 0 1 2 and 3 2 1 of a quad.
     let disc = discs[index / 6u];
     let triangle_corner = index % 6u;
@@ -30,6 +35,13 @@ fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
     let corner = vec2(f32(quad_corner & 1u), f32(quad_corner >> 1u)) * 2.0 - 1.0;
     let radius = disc.radius * scale;
     let splat =
-        shadowfit_disc_splat(light.shadow_from_origin, disc.centre, disc.normal, radius, map_size, corner);
-    return light.raster_from_clip * splat;
+        shadowfit_splat_corner(light.shadow_from_origin, disc.centre, disc.normal, radius, map_size, corner);
+    return Corner(light.raster_from_clip * splat.clip, splat.offset);
+}
+
+@fragment
+fn fragment(@location(0) offset: vec2<f32>) {
+    if (dot(offset, offset) > 1.0) {
+        discard;
+    }
 }
