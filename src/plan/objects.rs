@@ -82,7 +82,7 @@ impl Objects {
             let (min, max) = checked_box(min.as_dvec3(), max.as_dvec3())
                 .map_err(|error| InputError { field: FIELD, ..error })?;
             extent = extent.max(min.abs()).max(max.abs());
-            if !(object.longest_edge >= 0.0) {
+            if object.longest_edge.is_nan() || object.longest_edge < 0.0 {
                 return check::fail(FIELD, Problem::NotFinite);
             }
         }
