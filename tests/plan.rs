@@ -8,8 +8,8 @@ use rand::rngs::StdRng;
 use rand::{RngExt as _, SeedableRng as _};
 use shadowfit::glam;
 use shadowfit::{
-    Aabb, Budget, CubeFace, Filter, Kind, Light, LightPlan, Object, Objects, Pass, Plan, Projection, Settings,
-    Solidity, Surface, View, Warp, plan,
+    Aabb, Budget, CubeFace, Filter, Kind, Light, LightPlan, Object, Objects, Pass, Plan, Projection, Reason,
+    Settings, Solidity, Surface, View, Warp, plan,
 };
 
 /// A ground and some hundred boxes on it and above it, of every surface.
@@ -237,4 +237,173 @@ fn a_plan_keeps_to_its_texels() {
         let smallest = within.lights().iter().flat_map(LightPlan::passes).all(|pass| pass.map_size() <= 64);
         assert!(within.texels() <= most || smallest, "{seed}: {} of {most}", within.texels());
     }
+}
+
+/// A thing between two corners, solid unless told otherwise, whose edges are short.
+fn thing(min: [f32; 3], max: [f32; 3]) -> Object {
+    let bounds = Aabb::new(min.into(), max.into());
+    Object { surface: Surface::Mesh(Solidity::Solid), longest_edge: 1e-3, ..Object::new(bounds) }
+}
+
+/// A square on the ground of so many units to each side of the origin.
+fn ground(half: f32) -> Object {
+    thing([-half, -0.1, -half], [half, 0.0, half])
+}
+
+fn tower() -> Object {
+    thing([2.0, 0.0, -12.0], [4.0, 9.0, -10.0])
+}
+
+/// A person's view along −z, in an image 720 pixels high.
+fn looking_ahead() -> View {
+    View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), DVec3::Y, 1.0, 1.6, 0.1, 500.0).expect("sound")
+}
+
+fn looking_down() -> View {
+    View::perspective((0.0, 10.0, 0.0), DVec3::NEG_Y, DVec3::Z, 1.0, 1.0, 0.1, 50.0).expect("sound")
+}
+
+fn at_most(size: u32) -> Budget {
+    Budget::new(Settings::new(size, 720).expect("sound sizes"))
+}
+
+fn sun() -> Light {
+    Light::directional((0.4, 1.0, 0.2)).expect("sound")
+}
+
+fn lamp(position: [f64; 3], range: f64) -> Light {
+    Light::point(position, 0.01, range).expect("sound")
+}
+
+fn planned(view: &View, light: Light, objects: &[Object], budget: &Budget) -> LightPlan {
+    let objects = Objects::new(objects).expect("sound objects");
+    plan(view, &[light], &objects, budget).lights()[0].clone()
+}
+
+/// Asserts the kind of a plan and that a reason like this is among its reasons.
+macro_rules! assert_because {
+    ($plan:expr, $kind:expr, $($reason:pat),+) => {
+        let plan = $plan;
+        assert_eq!(plan.kind(), $kind, "{:?}", plan.reasons());
+        $(assert!(plan.reasons().iter().any(|reason| matches!(reason, $reason)), "{:?}", plan.reasons());)+
+    };
+}
+
+#[test]
+fn a_lamp_that_reaches_nothing_in_view_has_no_map() {
+    let behind = planned(&looking_ahead(), lamp([0.0, 3.0, 40.0], 6.0), &[ground(50.0), tower()], &at_most(1024));
+    assert_because!(behind, Kind::Nothing, Reason::NothingVisible);
+}
+
+#[test]
+fn a_light_on_what_nothing_casts_on_has_no_map() {
+    let alone = [Object { casts: false, ..ground(50.0) }];
+    assert_because!(planned(&looking_ahead(), sun(), &alone, &at_most(1024)), Kind::Nothing, Reason::NothingCasts);
+}
+
+#[test]
+fn a_map_fine_enough_is_uniform_and_no_larger_than_needed() {
+    let plan = planned(&looking_down(), sun(), &[ground(3.0), thing([0.0; 3], [1.0; 3])], &at_most(8192));
+    assert_because!(&plan, Kind::Uniform, Reason::UniformEnough, Reason::SmallerMap(_), Reason::AllSolid);
+    assert!(plan.aliasing() <= 1.0 && plan.passes()[0].map_size() < 8192, "{plan:?}");
+}
+
+#[test]
+fn no_warp_is_made_where_none_is_wanted() {
+    let settings = Settings::new(256, 720).expect("sound").with_warp(Warp::Uniform);
+    let plan = planned(&looking_ahead(), sun(), &[ground(50.0), tower()], &Budget::new(settings));
+    assert_because!(plan, Kind::Uniform, Reason::NoWarpWanted, Reason::TexelsShow(_));
+}
+
+#[test]
+fn along_the_view_a_warp_is_no_finer() {
+    let above = Light::directional(DVec3::Y).expect("sound");
+    let plan = planned(&looking_down(), above, &[ground(50.0), thing([0.0; 3], [1.0; 3])], &at_most(64));
+    assert_because!(plan, Kind::Uniform, Reason::WarpNoFiner(_));
+}
+
+#[test]
+fn across_a_long_view_a_warp_is_finer() {
+    let plan = planned(&looking_ahead(), sun(), &[ground(50.0), tower()], &at_most(1024));
+    assert_because!(plan, Kind::Perspective, Reason::WarpFiner(_), Reason::ShiftFiner(_));
+}
+
+#[test]
+fn under_a_sun_ahead_the_camera_stays() {
+    let ahead = Light::directional((0.4, 1.0, -0.8)).expect("sound");
+    let plan = planned(&looking_ahead(), ahead, &[ground(50.0), tower()], &at_most(1024));
+    assert_because!(plan, Kind::Perspective, Reason::WarpFiner(_), Reason::NoShiftFiner(_));
+}
+
+#[test]
+fn a_lamp_above_ground_that_is_cut_finely_has_one_paraboloid() {
+    let low = lamp([0.0, 0.5, -8.0], f64::INFINITY);
+    let plan =
+        planned(&looking_ahead(), low, &[ground(50.0), thing([1.0, 0.0, -9.0], [1.2, 0.2, -8.8])], &at_most(512));
+    assert_because!(plan, Kind::Paraboloid, Reason::WideFrustum(_), Reason::OneHemisphere);
+}
+
+/// Ground and walls around a lamp.
+fn court() -> [Object; 4] {
+    [
+        ground(20.0),
+        thing([-6.0, 0.0, -15.0], [-5.0, 6.0, -3.0]),
+        thing([5.0, 0.0, -15.0], [6.0, 6.0, -3.0]),
+        thing([-6.0, 0.0, -16.0], [6.0, 6.0, -15.0]),
+    ]
+}
+
+#[test]
+fn a_lamp_among_what_is_cut_finely_has_two_paraboloids() {
+    let plan = planned(&looking_ahead(), lamp([0.0, 2.0, -9.0], 30.0), &court(), &at_most(512));
+    assert_because!(plan, Kind::DualParaboloid, Reason::Surrounded, Reason::TwoHemispheres);
+}
+
+#[test]
+fn a_lamp_among_what_is_not_has_the_faces_of_a_cube() {
+    let coarse = court().map(|object| Object { longest_edge: 10.0, ..object });
+    let plan = planned(&looking_ahead(), lamp([0.0, 2.0, -9.0], 30.0), &coarse, &at_most(512));
+    assert_because!(plan, Kind::CubeFaces, Reason::Surrounded, Reason::CoarseCasters, Reason::Faces(_));
+}
+
+#[test]
+fn maps_keep_to_the_texels_of_all_lights() {
+    let budget = at_most(1024).with_texels(1 << 18);
+    let plan = planned(&looking_ahead(), sun(), &[ground(50.0), tower()], &budget);
+    assert_because!(&plan, Kind::Perspective, Reason::OverBudget(512));
+    assert_eq!(plan.texels(), 1 << 18);
+}
+
+#[test]
+fn sheets_are_tested_by_virtual_samples_where_a_bias_would_show() {
+    let sheet = Object { surface: Surface::Mesh(Solidity::Open), ..tower() };
+    let plan = planned(&looking_ahead(), sun(), &[ground(50.0), sheet], &at_most(256));
+    assert_because!(&plan, Kind::Perspective, Reason::BiasShows(_), Reason::TexelsShow(_));
+    assert!(plan.virtual_samples() && plan.passes().iter().all(|pass| pass.bias().is_none()));
+}
+
+/// Nothing is small enough that the least map has several texels for each pixel.
+#[test]
+fn sheets_are_tested_with_a_bias_where_it_is_hidden_and_texels_with_it() {
+    let [small, sheet] = [ground(0.1), thing([0.0; 3], [0.1; 3])];
+    let sheet = Object { surface: Surface::Mesh(Solidity::Open), ..sheet };
+    let plan = planned(&looking_down(), sun(), &[small, sheet], &at_most(4096));
+    assert_because!(&plan, Kind::Uniform, Reason::BiasHidden(_), Reason::TexelsHidden(_));
+    assert_eq!(plan.filter(), Filter::Nearest);
+    assert!(plan.passes().iter().all(|pass| pass.bias().is_some()));
+}
+
+#[test]
+fn points_are_tested_with_a_bias() {
+    let cloud = Object { surface: Surface::Points, ..tower() };
+    let plan = planned(&looking_ahead(), sun(), &[ground(50.0), cloud], &at_most(1024));
+    assert_because!(plan, Kind::Perspective, Reason::PointsCast);
+}
+
+#[test]
+fn texels_no_larger_than_pixels_are_not_filtered_widely() {
+    let budget = at_most(8192).with_filter(Filter::PercentageCloser(5));
+    let plan = planned(&looking_down(), sun(), &[ground(3.0), thing([0.0; 3], [1.0; 3])], &budget);
+    assert_because!(&plan, Kind::Uniform, Reason::TexelsBlend(_));
+    assert_eq!(plan.filter(), Filter::Hardware);
 }

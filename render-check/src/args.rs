@@ -7,8 +7,10 @@ use clap::{Parser, Subcommand, ValueEnum};
 use shadowfit::glam::DVec3;
 use shadowfit::{ClipSpace, DepthFormat};
 
+use crate::ablation::AblationArgs;
 use crate::gpu::{Bias, Filter, Points};
 use crate::light::LightSpec;
+use crate::plan::PlanArgs;
 use crate::run::Options;
 use crate::scene::BUILT_IN;
 use crate::technique::Technique;
@@ -128,6 +130,12 @@ pub enum Command {
     /// Checks the hard cases, all of them
     #[command(after_help = SWEEP_HELP)]
     Sweep(SweepArgs),
+    /// Plans all lights, the least that is enough for each, draws what the plan says and checks it
+    #[command(after_help = format!("{}\n\n{LIGHTS}\n\n{}", scenes(), crate::plan::HELP))]
+    Plan(PlanArgs),
+    /// Draws what a plan leaves out or asks for with it and without it, and holds both against the truth
+    #[command(after_help = crate::ablation::HELP)]
+    Ablation(AblationArgs),
 }
 
 /// A camera before a scene, and its lights.

@@ -22,8 +22,8 @@ pub struct FittedMap {
     pub map: Map,
     /// How it is drawn.
     pub pass: MapPass,
-    /// The triangles of the objects that meet H.
-    casters: Vec<Range<u32>>,
+    /// The objects that meet H, as indices into those of the mesh.
+    pub objects: Vec<usize>,
 }
 
 impl FittedMap {
@@ -36,9 +36,9 @@ impl FittedMap {
         };
         let body = focus.body(Form::Tight);
         let objects = &stage.tracer.mesh().objects;
-        let meets = objects.iter().filter(|object| body.meets_box(object.min, object.max));
-        let casters = meets.map(|object| object.triangles.clone()).collect();
-        Ok(Ok(Self { map, pass: options.pass(&map)?, casters }))
+        let meets = |&object: &usize| body.meets_box(objects[object].min, objects[object].max);
+        let objects = (0..objects.len()).filter(meets).collect();
+        Ok(Ok(Self { map, pass: options.pass(&map)?, objects }))
     }
 
     /// How it lays out the world, fitted to a view with its eye there.
@@ -47,8 +47,8 @@ impl FittedMap {
         Box::new(Frustum::new(&self.map, eye))
     }
 
-    fn draw(&self) -> MapDraw<'_> {
-        MapDraw { map: &self.map, casters: &self.casters, pass: self.pass }
+    fn casters(&self, mesh: &Mesh) -> Vec<Range<u32>> {
+        self.objects.iter().map(|&object| mesh.objects[object].triangles.clone()).collect()
     }
 }
 
@@ -109,18 +109,23 @@ impl FittedMaps {
     ///
     /// When the card refuses.
     pub fn draw(&self, stage: &Stage<'_>) -> Result<ShadowMaps> {
-        let draws: Vec<_> = self.maps.iter().map(|map| map.as_ref().map(FittedMap::draw)).collect();
+        let mesh = stage.tracer.mesh();
+        let casters: Vec<_> = self.maps.iter().map(|map| map.as_ref().map(|map| map.casters(mesh))).collect();
+        let with_casters = self.maps.iter().zip(&casters).map(|(map, casters)| map.as_ref().zip(casters.as_ref()));
+        let draws: Vec<_> = with_casters
+            .map(|both| both.map(|(map, casters)| MapDraw { map: &map.map, casters, pass: map.pass }))
+            .collect();
         ShadowMaps::draw(stage.gpu, &stage.geometry, &self.split, &draws)
     }
 
     /// What belongs in the maps.
     #[must_use]
     pub fn drawn(&self, mesh: &Mesh) -> Drawn {
-        let casters = || self.maps.iter().flatten().flat_map(|map| &map.casters);
+        let casters = || self.maps.iter().flatten().flat_map(|map| map.casters(mesh));
         Drawn {
             objects: casters().count(),
             of_objects: mesh.objects.len(),
-            triangles: casters().map(Range::len).sum(),
+            triangles: casters().map(|triangles| triangles.len()).sum(),
             of_triangles: mesh.triangles.len(),
         }
     }

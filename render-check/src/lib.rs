@@ -27,6 +27,8 @@
 //! | [`check`] | one scene: every light, every technique, every size |
 //! | [`sweep`] | the hard cases |
 //! | [`walk`] | a camera that moves, and what flickers |
+//! | [`plan`] | all lights of a scene, planned ([`planned`]), drawn as planned and checked |
+//! | [`ablation`] | what a plan leaves out and asks for, drawn with and without |
 //! | [`draw`] | the fit alone ([`fitting`], [`fitting_table`]) and pictures of H, by ray casting: needs no card |
 
 #![allow(
@@ -34,6 +36,7 @@
     reason = "the fitting path needs the same bits on every platform; pictures and default cameras do not"
 )]
 
+pub mod ablation;
 pub mod args;
 pub mod check;
 pub mod check_table;
@@ -46,6 +49,8 @@ pub mod gpu;
 pub mod light;
 pub mod opening;
 pub mod picture;
+pub mod plan;
+pub mod planned;
 pub mod progress;
 pub mod report;
 pub mod run;

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use render_check::args::{Args, Command};
-use render_check::{check, draw, opening, sweep, walk};
+use render_check::{ablation, check, draw, opening, plan, sweep, walk};
 
 fn main() -> ExitCode {
     let args = Args::parse();
@@ -13,6 +13,8 @@ fn main() -> ExitCode {
         Some(Command::Draw(args)) => draw::draw(args),
         Some(Command::Walk(args)) => walk::walk(args),
         Some(Command::Sweep(args)) => sweep::sweep(args),
+        Some(Command::Plan(args)) => plan::plan(args),
+        Some(Command::Ablation(args)) => ablation::ablation(args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -141,6 +141,31 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
         Ok(fitted) => fitted,
         Err(none) => return Ok(Err(none)),
     };
+    let settings = options.settings(stage.size[1])?;
+    let fit_all = || {
+        fitted
+            .lights
+            .iter()
+            .filter(|light| fit(&stage.fitted_view, light, &stage.bounds, &settings).map().is_some())
+            .count()
+    };
+    // A fit takes a few hundred times less than a frame.
+    let fit_time = median_time(300 * options.frames as usize - 299, fit_all);
+    Ok(Ok(run_fitted(stage, light, options, fitted, fit_time)?))
+}
+
+/// Draws, tests and judges maps that are fitted already, in the time that is given.
+///
+/// # Errors
+///
+/// When the card refuses.
+pub fn run_fitted(
+    stage: &Stage<'_>,
+    light: &StageLight,
+    options: &Options,
+    fitted: FittedMaps,
+    fit_time: Duration,
+) -> Result<MapRun> {
     let frame = || -> Result<(ShadowMaps, Shadows)> {
         let shadow_maps = fitted.draw(stage)?;
         let shadows = shadow_test(stage.gpu, &stage.surfaces, &shadow_maps, options.filter)?;
@@ -155,16 +180,6 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
     }
     let depths = shadow_maps.depths(stage.gpu)?;
     let verdict = judged(stage, light, options, &fitted, &depths, &lit)?;
-    let settings = options.settings(stage.size[1])?;
-    let fit_all = || {
-        fitted
-            .lights
-            .iter()
-            .filter(|light| fit(&stage.fitted_view, light, &stage.bounds, &settings).map().is_some())
-            .count()
-    };
-    // A fit takes a few hundred times less than a frame.
-    let fit_time = median_time(300 * options.frames as usize - 299, fit_all);
     let times = Times {
         fit_us: fit_time.as_secs_f64() * 1e6,
         shadow_map_ms: median_ms(shadow_map_times),
@@ -173,7 +188,7 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
     };
     let drawn = fitted.drawn(stage.tracer.mesh());
     let used_plane = matches!(options.filter, Filter::Virtual(_)).then(|| light.truth.share(&used_plane));
-    Ok(Ok(MapRun { fitted, depths, lit, used_plane, drawn, times, verdict }))
+    Ok(MapRun { fitted, depths, lit, used_plane, drawn, times, verdict })
 }
 
 /// Holds what was drawn against the truth.

@@ -21,11 +21,18 @@ use std::vec::Vec;
 /// Texels no finer than this are no gain: a map with more parts to it has to be better by so much.
 pub(super) const WORTH: f64 = 1.1;
 
+/// A warp's camera is moved back where texels are finer by more than this: by less, both are the same but for rounding.
+const SAME: f64 = 1.01;
+
 /// Texels smaller than this part of a pixel need no filter.
 const HIDDEN: f64 = 0.5;
 
-/// A bias that moves shadows by no more pixels than this is hidden by the filter that needs it.
-const HIDDEN_BIAS: f64 = 3.0;
+/// Texels up to so many pixels need no wider filter than the sampler's own, which blends from one to the next. A wider one
+/// hides no more steps there, and takes away what is as thin as it is wide.
+const BLENDED: f64 = 1.0;
+
+/// A bias that moves shadows by no more pixels than this is hidden: a pixel at their edges is off by as much anyway.
+const HIDDEN_BIAS: f64 = 1.0;
 
 /// What can be near a light, of the objects.
 #[derive(Default)]
@@ -40,7 +47,9 @@ impl Reach {
     /// Collects what is visible or casts inside the planes of a light.
     fn gather(&mut self, seen: &Seen, objects: &Objects, light: &[Plane]) {
         let Self { receivers, casters, ids, .. } = self;
-        (receivers.clear(), casters.clear(), ids.clear());
+        receivers.clear();
+        casters.clear();
+        ids.clear();
         seen.receivers.for_each_inside(light, |_, one| receivers.push(*one));
         if !receivers.is_empty() {
             objects.casters.for_each_inside(light, |id, one| {
@@ -57,6 +66,8 @@ pub(super) struct Candidate {
     pub(super) projections: Vec<Projection>,
     /// The longest side of a texel over that of a pixel, at its worst.
     pub(super) aliasing: f64,
+    /// The same on the mean over the points where maps are compared.
+    mean: f64,
 }
 
 /// A candidate; none where no map of its kind serves, or where no map is needed.
@@ -65,8 +76,23 @@ pub(super) type Found = Result<Option<Candidate>, Empty>;
 impl Candidate {
     pub(super) fn new(kind: Kind, projections: Vec<Projection>, points: &[DVec3]) -> Self {
         let of = |point| projections.iter().find_map(|projection| projection.aliasing(point));
-        let aliasing = points.iter().map(|&point| of(point).unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
-        Self { kind, projections, aliasing }
+        let each = || points.iter().map(|&point| of(point).unwrap_or(f64::INFINITY));
+        let (aliasing, sum) = each().fold((0.0, 0.0), |(worst, sum), one| (one.max(worst), sum + one));
+        Self { kind, projections, aliasing, mean: sum / points.len() as f64 }
+    }
+
+    /// The faces of a cube, with their worst texel.
+    pub(super) const fn faces(projections: Vec<Projection>, aliasing: f64) -> Self {
+        Self { kind: Kind::CubeFaces, projections, aliasing, mean: aliasing }
+    }
+
+    /// How many times as large its texels are as those of another: the geometric mean of what they are at worst and of
+    /// what they are on the mean.
+    ///
+    /// The worst alone would not tell: a point where all maps are as coarse, as where the ground runs out of view, may be
+    /// the worst of all, while everything else is twice as fine.
+    fn times(&self, other: &Self) -> f64 {
+        (self.aliasing / other.aliasing * (self.mean / other.mean)).sqrt()
     }
 }
 
@@ -119,6 +145,11 @@ impl Planner<'_> {
         let (mut size, mut aliasing) = (self.most, 2.0 * largest.aliasing);
         while aliasing <= self.budget.aliasing() && size / 2 >= Budget::SMALLEST_MAP {
             (size, aliasing) = (size / 2, 2.0 * aliasing);
+        }
+        // A uniform map that is fine enough stands for a warped one as well, which may be so at half the size.
+        let can_warp = largest.kind == Kind::Uniform && self.budget.settings().warp() != Warp::Uniform;
+        if can_warp && largest.aliasing <= self.budget.aliasing() && size / 2 >= Budget::SMALLEST_MAP {
+            size /= 2;
         }
         // A smaller map has more border and padding for its size, which may be too much.
         while size < self.most {
@@ -176,19 +207,17 @@ impl Planner<'_> {
         let shifted = fit(Warp::Perspective, Shift::Back(Form::Paper))?;
         // A light that a frustum serves without a warp it serves with one.
         let (Some(unshifted), Some(shifted)) = (unshifted, shifted) else { return Ok(Some(uniform)) };
-        let (warped, why) = if shifted.aliasing <= unshifted.aliasing {
-            let why = Reason::ShiftFiner(unshifted.aliasing / shifted.aliasing);
-            (shifted, why)
-        } else {
-            let why = Reason::NoShiftFiner(shifted.aliasing / unshifted.aliasing);
-            (unshifted, why)
+        let times = shifted.times(&unshifted);
+        let (warped, why) = match times * SAME < 1.0 {
+            true => (shifted, Reason::ShiftFiner(times.recip())),
+            false => (unshifted, Reason::NoShiftFiner(times)),
         };
-        let ratio = warped.aliasing / uniform.aliasing;
-        Ok(Some(if ratio * WORTH < 1.0 {
-            reasons.extend([Reason::WarpFiner(ratio), why]);
+        let (worst, times) = (warped.aliasing / uniform.aliasing, warped.times(&uniform));
+        Ok(Some(if worst <= 1.0 && times * WORTH < 1.0 {
+            reasons.extend([Reason::WarpFiner(times), why]);
             warped
         } else {
-            reasons.push(Reason::WarpNoFiner(ratio));
+            reasons.push(Reason::WarpNoFiner(worst.max(times)));
             uniform
         }))
     }
@@ -202,7 +231,7 @@ impl Planner<'_> {
         casters: &mut Vec<u32>,
         mut reasons: Vec<Reason>,
     ) -> LightPlan {
-        let Candidate { kind, projections, aliasing } = candidate;
+        let Candidate { kind, projections, aliasing, .. } = candidate;
         let (mut passes, mut made_of) = (Vec::new(), MadeOf::default());
         for projection in projections {
             let pass = self.pass(focus, projection, reach, casters, &mut made_of);
@@ -220,10 +249,15 @@ impl Planner<'_> {
         if size < self.most {
             reasons.push(Reason::SmallerMap(size));
         }
-        let filter = if aliasing <= HIDDEN { Filter::Nearest } else { self.budget.filter() };
+        let filter = match self.budget.filter() {
+            _ if aliasing <= HIDDEN => Filter::Nearest,
+            Filter::PercentageCloser(3..) if aliasing <= BLENDED => Filter::Hardware,
+            widest => widest,
+        };
         let (test, virtual_samples) = made_of.test(2.0 * filter.reach() * aliasing, &mut reasons);
         reasons.push(match filter {
-            Filter::Nearest => Reason::TexelsHidden(aliasing),
+            Filter::Nearest if aliasing <= HIDDEN => Reason::TexelsHidden(aliasing),
+            Filter::Hardware if aliasing <= BLENDED => Reason::TexelsBlend(aliasing),
             _ => Reason::TexelsShow(aliasing),
         });
         if test == DepthTest::First {

@@ -60,8 +60,8 @@ pub use reason::Reason;
 /// | what | by |
 /// |---|---|
 /// | no map | nothing that receives is in view and lit, or nothing casts on it |
-/// | one uniform map or one warped map | the uniform one where it is fine enough; else the finer one: never a warp that is coarser |
-/// | the warp's camera moved back or not | the finer of the two |
+/// | one uniform map or one warped map | the uniform one where it is fine enough; else the finer one, at worst and on the mean: never a warp that is coarser at worst |
+/// | the warp's camera moved back or not | the finer of the two; not, where they are the same |
 /// | one paraboloid instead of a frustum | the frustum is so wide that it is much coarser |
 /// | one or two paraboloids, or a cube's faces | passes, and whether all casters are cut finely enough for a map that bends lines |
 /// | second depth, first depth with a bias, or virtual samples | what the casters are made of, and how far the bias would move shadows |
@@ -239,7 +239,6 @@ impl LightPlan {
 
 /// What one map is drawn through.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "each is what a pass is about")]
 pub enum Projection {
     /// A matrix.
     Frustum(Map),

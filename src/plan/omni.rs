@@ -103,7 +103,7 @@ impl Planner<'_> {
                 }));
             }
         }
-        (!projections.is_empty()).then_some(Candidate { kind: Kind::CubeFaces, projections, aliasing })
+        (!projections.is_empty()).then_some(Candidate::faces(projections, aliasing))
     }
 
     /// Whether a paraboloid map of the candidate bends no edge of any caster by more than [`BENT`] texels.

@@ -15,13 +15,15 @@ pub enum Reason {
     UniformEnough,
     /// One uniform map: the settings want no warp.
     NoWarpWanted,
-    /// One uniform map: a warp would be no finer. With its worst texel over the uniform map's.
+    /// One uniform map: a warp would be no finer, or not enough so. Its texels would be so many times as large, at worst or
+    /// on the mean of both.
     WarpNoFiner(f64),
-    /// One warped map: its worst texel is this part of the uniform map's.
+    /// One warped map: its worst texel is no larger than the uniform map's, and at worst and on the mean, taken together,
+    /// its texels are this part of the uniform map's.
     WarpFiner(f64),
-    /// The warp's camera is moved back: without, the worst texel would be so many times as large.
+    /// The warp's camera is moved back: without, texels would be so many times as large.
     ShiftFiner(f64),
-    /// The warp's camera stays where the view's is: moved back, the worst texel would be so many times as large.
+    /// The warp's camera stays where the view's is: moved back, texels would be so many times as large.
     NoShiftFiner(f64),
     /// No single frustum: the light stands among what it lights.
     Surrounded,
@@ -51,6 +53,9 @@ pub enum Reason {
     PointsCast,
     /// The nearest texel alone: the largest is this part of a pixel, so that a filter would hide nothing.
     TexelsHidden(f64),
+    /// The sampler's own filter, though a wider one is allowed: the largest texel is this part of a pixel, so that no more
+    /// is needed.
+    TexelsBlend(f64),
     /// Filtered: the largest texel is so many times as large as a pixel.
     TexelsShow(f64),
 }
@@ -63,14 +68,14 @@ impl fmt::Display for Reason {
             Self::UniformEnough => f.write_str("uniform: fine enough without a warp"),
             Self::NoWarpWanted => f.write_str("uniform: the settings want no warp"),
             Self::WarpNoFiner(part) => {
-                write!(f, "uniform: the worst texel of a warp would be {part:.2} times as large")
+                write!(f, "uniform: the texels of a warp would be {part:.2} times as large")
             }
-            Self::WarpFiner(part) => write!(f, "warped: the worst texel is {part:.2} times the uniform map's"),
+            Self::WarpFiner(part) => write!(f, "warped: texels are {part:.2} times the uniform map's"),
             Self::ShiftFiner(times) => {
-                write!(f, "moved back: without, the worst texel would be {times:.2} times as large")
+                write!(f, "moved back: without, texels would be {times:.2} times as large")
             }
             Self::NoShiftFiner(times) => {
-                write!(f, "not moved back: with that, the worst texel would be {times:.2} times as large")
+                write!(f, "not moved back: with that, texels would be {times:.2} times as large")
             }
             Self::Surrounded => f.write_str("no single frustum: the light stands among what it lights"),
             Self::WideFrustum(times) => {
@@ -94,6 +99,9 @@ impl fmt::Display for Reason {
             Self::PointsCast => f.write_str("first depth with a bias: there are points among the casters"),
             Self::TexelsHidden(part) => {
                 write!(f, "nearest texel: the largest is {part:.2} pixels, so that a filter hides nothing")
+            }
+            Self::TexelsBlend(part) => {
+                write!(f, "blended: the largest texel is {part:.2} pixels, so that no wider filter is needed")
             }
             Self::TexelsShow(times) => write!(f, "filtered: the largest texel is {times:.2} pixels"),
         }

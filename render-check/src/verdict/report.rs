@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::cluster::{Cluster, Fault};
+use super::cluster::{Cluster, Fault, worst_cluster};
+use super::truth::{Truth, TruthImage};
 
 /// What came of comparing one pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,6 +102,12 @@ impl Counts {
         self.edge_texel + self.edge_pixel
     }
 
+    /// All wrong pixels. How coarse a map is shows at the edges of its shadows.
+    #[must_use]
+    pub fn wrong(&self) -> usize {
+        self.faults() + self.edges()
+    }
+
     /// One of the counts as a part of the compared pixels, 0 to 1; 0 where none were compared.
     #[must_use]
     pub fn fraction(&self, count: usize) -> f64 {
@@ -141,6 +148,26 @@ pub struct Verdict {
     /// What came of each pixel, row by row from the top. It is not serialised.
     #[serde(skip)]
     pub marks: Vec<Mark>,
+}
+
+impl Verdict {
+    /// Where there is no map: all counts as lit, and each true shadow is missing.
+    #[must_use]
+    pub fn without_map(truth: &TruthImage) -> Self {
+        let mark = |pixel: &Truth| match (pixel.surface(), pixel.compared()) {
+            (None, _) => Mark::Sky,
+            (_, None) => Mark::Unlit,
+            (_, Some((_, true))) => Mark::Right,
+            (_, Some((_, false))) => Mark::Missing,
+        };
+        let marks: Vec<Mark> = truth.pixels().iter().map(mark).collect();
+        Self {
+            counts: Counts::of(&marks, truth.shadowed()),
+            worst_cluster: worst_cluster(truth, &marks),
+            aliasing: None,
+            marks,
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,182 @@
+//! A scene as the planner wants it, and a light's plan as what is drawn.
+
+use anyhow::{Context, Result, bail};
+use shadowfit::glam::{DVec3, Vec3};
+use shadowfit::{
+    Aabb, CubeFace, DepthFormat, DepthTest, Kind, Light, LightPlan, Object, Objects, Plan, Projection, Shift,
+    Surface, Warp,
+};
+
+use crate::fitted_maps::{FittedMap, FittedMaps};
+use crate::gpu::{Bias, Filter, MapPass, Points};
+use crate::run::Options;
+use crate::scene::{self, Mesh};
+use crate::split::Split;
+use crate::technique::Technique;
+use crate::trace::Faces;
+
+/// The box around an object of a mesh, no smaller in f32 than it is.
+#[must_use]
+pub fn bounds(object: &scene::Object) -> Aabb {
+    let outwards = |v: DVec3, next: fn(f32) -> f32, is_inside: fn(f64, f64) -> bool| {
+        Vec3::from(v.to_array().map(|x| if is_inside(f64::from(x as f32), x) { next(x as f32) } else { x as f32 }))
+    };
+    Aabb::new(
+        outwards(object.min, f32::next_down, |rounded, exact| rounded > exact),
+        outwards(object.max, f32::next_up, |rounded, exact| rounded < exact),
+    )
+}
+
+/// The objects of a mesh for the planner, in their order. All of them cast and receive.
+///
+/// # Errors
+///
+/// When the scene is too large.
+pub fn objects(mesh: &Mesh) -> Result<Objects> {
+    let of = |object: &scene::Object| {
+        let is_cloud = object.triangles.start as usize >= mesh.first_disc_triangle();
+        let edges = object.triangles.clone().flat_map(|triangle| {
+            let [a, b, c] = mesh.corners(triangle as usize);
+            [a.distance(b), b.distance(c), c.distance(a)]
+        });
+        Object {
+            surface: if is_cloud { Surface::Points } else { Surface::Mesh(object.solidity) },
+            triangles: object.triangles.len() as u32,
+            longest_edge: (edges.fold(0.0, f64::max) as f32).next_up(),
+            ..Object::new(bounds(object))
+        }
+    };
+    let objects: Vec<Object> = mesh.objects.iter().map(of).collect();
+    Objects::new(&objects).context("the scene's extent cannot be used")
+}
+
+/// The sides that a test wants drawn.
+#[must_use]
+pub fn faces(test: DepthTest) -> Faces {
+    match test {
+        DepthTest::Second => Faces::Second,
+        // The planner asks for no middle of layers.
+        DepthTest::First | DepthTest::BetweenLayers => Faces::All,
+    }
+}
+
+/// A filter as the harness has it, by virtual samples or not.
+#[must_use]
+pub fn filter(filter: shadowfit::Filter, virtual_samples: bool) -> Filter {
+    use shadowfit::Filter as Planned;
+    match (filter, virtual_samples) {
+        (Planned::Nearest, false) => Filter::Nearest,
+        (Planned::Nearest, true) => Filter::Virtual(1),
+        (Planned::Hardware, false) => Filter::Hardware,
+        (Planned::Hardware, true) => Filter::Virtual(2),
+        (Planned::PercentageCloser(taps), false) => Filter::PercentageCloser(taps.max(1).into()),
+        (Planned::PercentageCloser(taps), true) => Filter::Virtual(taps.max(1).into()),
+    }
+}
+
+/// How the maps of a light are drawn and read, as its plan has it, so many times.
+#[must_use]
+pub fn options(of_light: &LightPlan, format: DepthFormat, points: Points, frames: u32) -> Options {
+    let map_size = of_light.passes().iter().map(|pass| pass.map_size()).max().unwrap_or(0);
+    Options {
+        format,
+        faces: faces(of_light.test()),
+        filter: filter(of_light.filter(), of_light.virtual_samples()),
+        points,
+        frames,
+        ..Options::new(technique(of_light), map_size)
+    }
+}
+
+/// The technique that comes nearest to a plan.
+fn technique(of_light: &LightPlan) -> Technique {
+    let is_warped = |projection: &Projection| match projection {
+        Projection::Frustum(map) | Projection::Face(_, map) => map.settings().warp() == Warp::Perspective,
+        Projection::Paraboloid(_) => false,
+    };
+    let is_moved_back = |projection: &Projection| match projection {
+        Projection::Frustum(map) => map.settings().shift() != Shift::None,
+        _ => false,
+    };
+    let any = |is: &dyn Fn(&Projection) -> bool| of_light.passes().iter().any(|pass| is(pass.projection()));
+    match (of_light.kind(), any(&is_warped)) {
+        (Kind::CubeFaces, true) => Technique::CubePsm,
+        (Kind::CubeFaces, false) => Technique::Cube,
+        (_, true) if any(&is_moved_back) => Technique::Psm,
+        (_, true) => Technique::PsmUnshifted,
+        (_, false) => Technique::Uniform,
+    }
+}
+
+/// The bias of a pass of a plan, and what receivers are moved by besides.
+fn bias(pass: &shadowfit::Pass) -> (Bias, f64) {
+    pass.bias()
+        .map_or((Bias::NONE, 0.0), |bias| (Bias { constant: bias.constant, slope: bias.slope }, bias.receiver))
+}
+
+impl FittedMaps {
+    /// The maps of a light as a plan has them: its matrices, its casters and its bias, drawn as `options` say besides;
+    /// `None` where it has no map.
+    ///
+    /// # Errors
+    ///
+    /// When a map of the plan is a paraboloid, which is not drawn here.
+    pub fn planned(plan: &Plan, light: &Light, of_light: &LightPlan, options: &Options) -> Result<Option<Self>> {
+        let (split, lights) = match (of_light.kind(), light.position()) {
+            (Kind::CubeFaces, Some(position)) => {
+                (Split::cube(position), cube_faces(light, options.filter, options.map_size, options.border())?)
+            }
+            _ => (Split::whole(), vec![*light]),
+        };
+        let mut maps = vec![None; split.parts()];
+        for pass in of_light.passes() {
+            let (part, map) = match pass.projection() {
+                Projection::Frustum(map) => (0, *map),
+                Projection::Face(face, map) => (*face as usize, *map),
+                Projection::Paraboloid(_) => bail!("a paraboloid is planned, not drawn"),
+            };
+            let objects = plan.casters(pass).iter().map(|&id| id as usize).collect();
+            let (bias, receiver) = bias(pass);
+            let pass =
+                MapPass { format: options.format, faces: options.faces, bias, receiver, points: options.points };
+            maps[part] = Some(FittedMap { map, pass, objects });
+        }
+        Ok(maps.iter().any(Option::is_some).then_some(Self { split, lights, maps }))
+    }
+}
+
+/// The faces of the cube around a lamp, each as a light of its own.
+///
+/// # Errors
+///
+/// When the light is no lamp that shines all around.
+pub fn cube_faces(light: &Light, filter: Filter, map_size: u32, border: u32) -> Result<Vec<Light>> {
+    let overlap = CubeFace::overlap(filter.reach(), map_size, border);
+    let faces = CubeFace::ALL.map(|face| light.cube_face(face, overlap));
+    faces.into_iter().collect::<Result<_, _>>().context("the light has no faces")
+}
+
+/// A kind in words.
+#[must_use]
+pub fn kind_in_words(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Nothing => "no map",
+        Kind::Uniform => "uniform",
+        Kind::Perspective => "perspective",
+        Kind::Paraboloid => "paraboloid",
+        Kind::DualParaboloid => "two paraboloids",
+        Kind::CubeFaces => "cube faces",
+    }
+}
+
+/// How depths are tested, in words.
+#[must_use]
+pub fn test_in_words(of_light: &LightPlan) -> &'static str {
+    match (of_light.kind(), of_light.test(), of_light.virtual_samples()) {
+        (Kind::Nothing, ..) => "-",
+        (_, DepthTest::First, _) => "first depth, bias",
+        (_, DepthTest::Second, false) => "second depth",
+        (_, DepthTest::Second, true) => "virtual samples",
+        (_, DepthTest::BetweenLayers, _) => "between layers",
+    }
+}
