@@ -5,11 +5,12 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, bail, ensure};
 use shadowfit::glam::{Mat4, Vec3, Vec4};
-use shadowfit::{ClipSpace, Culling, DepthFormat, DepthRange, Map, Offset, YAxis};
+use shadowfit::{ClipSpace, Culling, DepthBias, DepthFormat, DepthRange, Offset, Paraboloid, YAxis};
 
 use super::pass::{Pass, PipelineKind, depth_state};
 use super::splats::{Points, SplatPass};
 use super::{Geometry, Gpu, read_back, shaders};
+use crate::layout::Layout;
 use crate::split::Split;
 use crate::trace::Faces;
 
@@ -52,7 +53,7 @@ fn format_name<S: serde::Serializer>(format: &DepthFormat, serializer: S) -> Res
 pub struct MapDraw<'a> {
     /// Its matrix takes positions relative to what its settings say; the geometry must have been uploaded relative to
     /// the same.
-    pub map: &'a Map,
+    pub map: Layout,
     /// The ranges of the geometry's triangles that belong in it.
     pub casters: &'a [Range<u32>],
     /// How they are drawn.
@@ -66,7 +67,7 @@ pub struct ShadowMaps {
     /// One by one.
     layers: Vec<wgpu::TextureView>,
     /// The map in each layer, and what receivers are to be tested with.
-    pub(super) maps: Vec<(Map, Offset)>,
+    pub(super) maps: Vec<(Layout, Offset)>,
     pub(super) format: DepthFormat,
     /// The axis of each part of the light and, in w, its layer; −1 for a part without a map.
     pub(super) parts: Vec<Vec4>,
@@ -81,15 +82,20 @@ impl ShadowMaps {
     ///
     /// # Errors
     ///
-    /// When there is nothing to draw, when the maps are not alike in size, format and clip space, as layers of a texture
-    /// are, or when the card refuses, as it does maps larger than it can hold.
+    /// When there is nothing to draw, when the maps are not alike in kind, size, format and clip space, as layers of a
+    /// texture are, when points are to be splats in a paraboloid, or when the card refuses, as it does maps larger than it can hold.
     pub fn draw(gpu: &Gpu, geometry: &Geometry, split: &Split, maps: &[Option<MapDraw<'_>>]) -> Result<Self> {
         ensure!(split.parts() == maps.len(), "a light in {} parts has {} maps", split.parts(), maps.len());
         let drawn: Vec<&MapDraw<'_>> = maps.iter().flatten().collect();
         let first = drawn.first().context("none of the parts of the light needs a map")?;
-        let of =
-            |draw: &MapDraw<'_>| (draw.map.settings().map_size(), draw.pass.format, draw.map.settings().clip());
-        ensure!(drawn.iter().all(|draw| of(draw) == of(first)), "the maps of a light differ in size or format");
+        let of = |draw: &MapDraw<'_>| {
+            let is_frustum = matches!(draw.map, Layout::Frustum(_));
+            (is_frustum, draw.map.settings().map_size(), draw.pass.format, draw.map.settings().clip())
+        };
+        ensure!(
+            drawn.iter().all(|draw| of(draw) == of(first)),
+            "the maps of a light differ in kind, size or format"
+        );
         let (size, largest) = (first.map.settings().map_size(), gpu.largest_texture());
         ensure!(size <= largest, "{} holds maps of {largest} texels a side, not of {size}", gpu.name());
         gpu.guarded("the shadow map", || {
@@ -122,7 +128,7 @@ impl ShadowMaps {
             });
             let receiver = |draw: &MapDraw<'_>| {
                 let offset = Offset::depth(draw.pass.receiver).context("receivers cannot be moved so")?;
-                Ok((*draw.map, offset))
+                Ok((draw.map, offset))
             };
             Ok(Self {
                 view: view(wgpu::TextureViewDimension::D2Array, 0, drawn.len() as u32),
@@ -142,7 +148,8 @@ impl ShadowMaps {
     ///
     /// When the card refuses.
     pub fn depths(&self, gpu: &Gpu) -> Result<Vec<Vec<f32>>> {
-        let depths = |(layer, (map, _)): (_, &(Map, _))| read_back::depths(gpu, layer, map.settings().map_size());
+        let depths =
+            |(layer, (map, _)): (_, &(Layout, _))| read_back::depths(gpu, layer, map.settings().map_size());
         gpu.guarded("the shadow map's depths", || self.layers.iter().zip(&self.maps).map(depths).collect())
     }
 }
@@ -161,13 +168,22 @@ fn draw_layer(
         true => (wgpu::CompareFunction::Greater, -1),
         false => (wgpu::CompareFunction::Less, 1),
     };
-    let bias = wgpu::DepthBiasState {
-        constant: sign * draw.pass.bias.constant,
-        slope_scale: sign as f32 * draw.pass.bias.slope,
-        clamp: 0.0,
+    let raster_from_clip = raster_from_clip(clip);
+    let (shader, light, bias): (String, _, _) = match &draw.map {
+        Layout::Frustum(map) => {
+            let bias = wgpu::DepthBiasState {
+                constant: sign * draw.pass.bias.constant,
+                slope_scale: sign as f32 * draw.pass.bias.slope,
+                clamp: 0.0,
+            };
+            (shaders::SHADOW_MAP.into(), gpu.uniforms(&[map.matrix(), raster_from_clip]), bias)
+        }
+        Layout::Paraboloid(map) => {
+            let light = gpu.uniforms(&[map.matrix(), raster_from_clip, in_fragments(map, &draw.pass)]);
+            (shaders::paraboloid_map(), light, wgpu::DepthBiasState::default())
+        }
     };
     let depth = depth_state(format, compare, bias);
-    let light = gpu.uniforms(&[draw.map.matrix(), raster_from_clip(clip)]);
     let (triangles, discs) = match draw.pass.points {
         Points::Discs => (draw.casters.to_vec(), Vec::new()),
         Points::Splats | Points::Texels => geometry.without_discs(draw.casters),
@@ -177,9 +193,10 @@ fn draw_layer(
     let mut add = |took: Option<Duration>| time = time.zip(took).map(|(sum, took)| sum + took);
     for (cull_mode, draws) in batches(geometry, &triangles, draw.pass.faces) {
         let pipeline = PipelineKind {
-            shader: shaders::SHADOW_MAP,
+            shader: &shader,
             constants: &[],
             takes_geometry: true,
+            has_fragments: matches!(draw.map, Layout::Paraboloid(_)),
             // The meshes' fronts are counter-clockwise, and the crate's maps mirror nothing.
             primitive: wgpu::PrimitiveState { front_face: wgpu::FrontFace::Ccw, cull_mode, ..Default::default() },
             depth: Some(depth.clone()),
@@ -198,11 +215,27 @@ fn draw_layer(
         add(pass.run(gpu)?);
     }
     if !discs.is_empty() {
+        ensure!(
+            matches!(draw.map, Layout::Frustum(_)),
+            "splats are drawn into frusta only: draw the points as discs"
+        );
         let size = draw.map.settings().map_size();
         let splats = SplatPass { points: draw.pass.points, size, light: &light, view: layer, depth };
         add(splats.run(gpu, geometry, &discs)?);
     }
     Ok(time)
+}
+
+/// What the fragments of a paraboloid need besides its matrix: texture scale, clip scale and bias, and no more numbers.
+fn in_fragments(map: &Paraboloid, pass: &MapPass) -> Mat4 {
+    let bias = DepthBias {
+        format: pass.format,
+        constant: pass.bias.constant,
+        slope: pass.bias.slope,
+        receiver: pass.receiver,
+    };
+    let (scale, bias) = (map.clip_scale(), bias.in_shader());
+    Mat4::from_cols(map.texture_scale(), scale.extend(bias.x).extend(bias.y), Vec4::ZERO, Vec4::ZERO)
 }
 
 /// The vertices to draw with each kind of culling; at least one batch, though it may be empty, so that the map is cleared.
