@@ -86,6 +86,15 @@ impl Offset {
         Self { kind: Kind::Depth(depth) }
     }
 
+    /// What a distance from the light is multiplied by, and what is then taken off it, in parts of a depth range.
+    pub(crate) fn of_distance(&self, range: f64) -> (f64, f64) {
+        match self.kind {
+            Kind::Depth(by) => (1.0, by),
+            Kind::Relative(part) => (1.0 / (1.0 + part), 0.0),
+            Kind::World(distance) => (1.0, distance / range),
+        }
+    }
+
     /// The row of depth, 0 to 1, with this offset in it.
     pub(crate) fn depth_row(&self, depth: Plane, w: Plane, light: DVec4, along: &Along) -> Plane {
         let part = match self.kind {

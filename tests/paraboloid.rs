@@ -6,10 +6,10 @@
 mod arbitrary;
 
 use arbitrary::{Numbers, Together, case, points_of, run, settings};
-use glam::{DVec2, DVec3, Vec3, Vec4, Vec4Swizzles};
+use glam::{DVec2, DVec3, Vec2, Vec3, Vec4, Vec4Swizzles};
 use proptest::prelude::*;
 use shadowfit::{
-    Body, ClipSpace, DepthFormat, DepthRange, Empty, Focus, Light, Origin, Paraboloid, Paraboloids, Problem, Scene,
+    Body, ClipSpace, DepthFormat, Empty, Focus, Light, Offset, Origin, Paraboloid, Paraboloids, Problem, Scene,
     Settings, View,
 };
 use std::cell::Cell;
@@ -169,8 +169,9 @@ fn footprints_are_squares_and_the_numeric_ones() {
 /// The WGSL, in f32.
 struct Shader {
     place: DVec3,
-    clip: Vec4,
-    hemisphere: f32,
+    clip: Vec2,
+    /// Whether the fragment shader keeps the vertex.
+    kept: bool,
     texture: Vec4,
 }
 
@@ -180,14 +181,11 @@ fn shader(map: &Paraboloid, position: Vec3) -> Shader {
     let distance = q.xyz().length();
     let divisor = (distance + q.z).max(1e-6 * distance + 1e-30);
     let (place, depth) = (q.xy() / divisor, distance - q.w);
-    let square = clip_scale.x * clip_scale.x;
-    let behind = (1.0 - square) / (1.0 + square);
-    let shown = place * clip_scale.xy();
     let read = place * texture_scale.xy() + 0.5;
     Shader {
         place: place.extend(depth).as_dvec3(),
-        clip: shown.extend(depth * clip_scale.z + clip_scale.w).extend(1.0),
-        hemisphere: (q.z + behind * distance) / divisor,
+        clip: place * clip_scale,
+        kept: clip_scale.x * clip_scale.x * (1.0 - 2.0 * (q.z / divisor)) <= 1.0,
         texture: read.extend(depth * texture_scale.z + texture_scale.w).extend(q.z),
     }
 }
@@ -236,17 +234,11 @@ fn the_shader_honours_clip_conventions() {
                 let point = map.position() + from_light(&map, local) * (1.0 + 7.0 * numbers.part());
                 let place = map.project(point).expect("not behind");
                 let shader = shader(&map, point.as_vec3());
-                let (depth, held) = match clip.depth {
-                    DepthRange::ZeroToOne => (place.z, place.z),
-                    DepthRange::ZeroToOneReversed => (1.0 - place.z, 1.0 - place.z),
-                    DepthRange::NegativeOneToOne => (2.0 * place.z - 1.0, place.z),
-                    DepthRange::NegativeOneToOneReversed => (1.0 - 2.0 * place.z, 1.0 - place.z),
-                };
+                let held = if clip.depth.is_reversed() { 1.0 - place.z } else { place.z };
                 let inner = 1.0 - 16.0 / 512.0;
                 let up = if clip == ClipSpace::VULKAN.reversed() { -1.0 } else { 1.0 };
-                let clip_place = DVec3::new(place.x * inner, place.y * inner * up, depth);
-                assert!((shader.clip.xyz().as_dvec3() - clip_place).length() < 1e-5, "{clip:?}");
-                assert_eq!(shader.clip.w, 1.0);
+                let clip_place = DVec2::new(place.x * inner, place.y * inner * up);
+                assert!((shader.clip.as_dvec2() - clip_place).length() < 1e-5, "{clip:?}");
                 // Only OpenGL has its first row at the bottom.
                 let down = if clip.texture_origin == ClipSpace::OPENGL.texture_origin { 1.0 } else { -1.0 };
                 let read = DVec3::new(0.5 + 0.5 * inner * place.x, 0.5 + 0.5 * inner * place.y * down, held);
@@ -257,7 +249,7 @@ fn the_shader_honours_clip_conventions() {
                 // What is drawn ends with the map.
                 let reach = place.truncate().length() * inner;
                 if (reach - 1.0).abs() > 1e-5 {
-                    assert_eq!(shader.hemisphere >= 0.0, reach <= 1.0, "{local}");
+                    assert_eq!(shader.kept, reach <= 1.0, "{local}");
                 }
             }
         }
@@ -271,11 +263,11 @@ fn vertices_behind_the_light_are_somewhere_and_cut_off() {
             for local in [DVec3::NEG_Z, DVec3::new(1e-9, 0.0, -1.0), DVec3::new(1e-4, -1e-4, -1.0)] {
                 let point = map.position() + from_light(&map, local.normalize()) * distance;
                 let shader = shader(&map, point.as_vec3());
-                assert!(shader.clip.is_finite() && shader.hemisphere < 0.0, "{local} {}", shader.clip);
+                assert!(shader.clip.is_finite() && !shader.kept, "{local} {}", shader.clip);
             }
         }
         let at_light = shader(&map, map.position().as_vec3());
-        assert!(at_light.clip.is_finite() && at_light.hemisphere.is_finite());
+        assert!(at_light.clip.is_finite());
     }
 }
 
@@ -542,16 +534,147 @@ fn the_shader_text_is_valid() {
     let caller = "
         @group(0) @binding(0) var<uniform> matrix: mat4x4<f32>;
         @group(0) @binding(1) var<uniform> scale: vec4<f32>;
-        struct Corner { @builtin(position) position: vec4<f32>, @location(0) hemisphere: f32 }
-        @vertex fn vertex(@location(0) position: vec3<f32>) -> Corner {
-            let caster = shadowfit_paraboloid_clip(matrix, scale, position);
-            return Corner(caster.position, caster.hemisphere);
+        @vertex fn vertex(@location(0) position: vec3<f32>) -> ShadowfitParaboloidVertex {
+            return shadowfit_paraboloid_clip(matrix, scale.xy, position);
         }
-        @fragment fn fragment(corner: Corner) -> @location(0) vec4<f32> {
-            if corner.hemisphere < 0.0 { discard; }
-            return shadowfit_paraboloid_texture(matrix, scale, corner.position.xyz);
+        @fragment fn fragment(vertex: ShadowfitParaboloidVertex) -> @builtin(frag_depth) f32 {
+            return shadowfit_paraboloid_depth(matrix, scale.xy, scale, vertex, vec2(1e-6, 1.0));
+        }
+        @fragment fn read(@location(0) position: vec3<f32>) -> @location(0) vec4<f32> {
+            return shadowfit_paraboloid_texture(matrix, scale, position);
         }";
     let module = wgsl::parse_str(&format!("{}{caller}", shadowfit::wgsl::PARABOLOID)).expect("it parses");
     let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
     validator.validate(&module).expect("it is valid");
+}
+
+/// What the shader writes for the texel at a place on the plane where `plane` · x = 1, the light in the middle, as a
+/// distance; in f64.
+fn stored(plane: DVec3, place: DVec2, texel: f64, slope: f64) -> f64 {
+    let square = place.length_squared();
+    let direction = (2.0 * place).extend(1.0 - square) / (1.0 + square);
+    let turn = |step: DVec2| {
+        let along = place.dot(step);
+        (step.extend(-along) - direction * along) * (1.0 + direction.z)
+    };
+    let changes = [DVec2::X, DVec2::Y].map(|axis| plane.dot(turn(axis * texel)).abs());
+    let curved = 4.0 * slope * texel * texel * plane.length();
+    let least = plane.dot(direction) - slope * (changes[0] + changes[1] + curved);
+    if least > 0.0 { 1.0 / least } else { f64::INFINITY }
+}
+
+/// The distance of the plane along the ray at a place.
+fn distance(plane: DVec3, place: DVec2) -> Option<f64> {
+    let square = place.length_squared();
+    let nearness = plane.dot((2.0 * place).extend(1.0 - square) / (1.0 + square));
+    (nearness > 0.0).then(|| nearness.recip())
+}
+
+#[test]
+fn no_plane_shadows_itself_and_less_is_not_enough() {
+    let [map, _] = both(&Settings::new(256, 1080).expect("sound"));
+    let texel = 1.0 / texels_per_unit(map.settings());
+    let mut numbers = Numbers(8);
+    for reach in [0.5, 1.0, 2.5] {
+        let bias = map.bias(DepthFormat::Float32, reach).expect("a reach");
+        let (mut cases, mut too_little, mut wasted) = (0, 0, 0.0_f64);
+        while cases < 40_000 {
+            let normal = direction_about(&mut numbers);
+            let plane = normal / (0.1 + 7.0 * numbers.part());
+            let place = DVec2::new(numbers.part() - 0.5, numbers.part() - 0.5) * 2.0;
+            if place.length() > 1.0 || distance(plane, place).is_none() {
+                continue;
+            }
+            cases += 1;
+            let all = stored(plane, place, texel, bias.slope.into());
+            // Half of the reach and nothing for rounding.
+            let less = stored(plane, place, texel, 0.5 * reach);
+            let mut farthest: f64 = 0.0;
+            for (x, y) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0), (0.3, 1.0), (0.0, 0.0)] {
+                let read = place + DVec2::new(x, y) * (reach * texel);
+                let Some(receiver) = distance(plane, read) else { continue };
+                assert!(all >= receiver * (1.0 - 1e-12), "{plane} at {place}: {all} before {receiver}");
+                farthest = farthest.max(receiver);
+            }
+            too_little += usize::from(less < farthest);
+            // Where the plane is not grazed within the reach, the bias is no larger than what it must cover by much.
+            let here = distance(plane, place).expect("seen");
+            if (all - here) < 0.1 * here {
+                wasted = wasted.max((all - here) / (farthest - here).max(0.01 * here));
+            }
+        }
+        assert!(too_little * 10 > cases * 9, "{too_little} of {cases}");
+        assert!(f64::from(bias.slope) >= reach && f64::from(bias.slope) <= 1.05 * reach + 0.15, "{bias:?}");
+        assert!(wasted < 2.0, "{wasted}");
+    }
+}
+
+#[test]
+fn noise_over_distances_is_at_least_that_of_points() {
+    run(1000, &(case(), settings(), any::<u64>()), |(case, settings, seed)| {
+        let together = Together::of(&case);
+        let focus = together.focus();
+        for map in focus.paraboloids(&settings).maps() {
+            let bias = map.bias(DepthFormat::Unorm24, 0.5).expect("a reach");
+            for point in points_of(&focus.visible(), seed) {
+                let far_enough = point.distance(map.position()) >= map.far() / 64.0;
+                if map.clip_plane().at(point) < 0.0 || !far_enough {
+                    continue;
+                }
+                let rounding = map.rounding(point);
+                // The receiver's and the caster's.
+                assert!(2.0 * rounding.depth <= bias.receiver, "{point}: {rounding:?}, {bias:?}");
+                assert!(rounding.texels <= f64::from(bias.slope) - 0.5, "{point}: {rounding:?}, {bias:?}");
+            }
+        }
+    });
+}
+
+#[test]
+fn receivers_are_moved_by_just_what_is_asked_for() {
+    let [map, _] = both(&Settings::default());
+    let mut numbers = Numbers(9);
+    let range = map.far() - map.near();
+    for _ in 0..500 {
+        let local = direction_about(&mut numbers);
+        if local.z < 0.0 {
+            continue;
+        }
+        let away = 1.0 + 5.0 * numbers.part();
+        let point = map.position() + from_light(&map, local) * away;
+        for (offset, moved) in [
+            (Offset::world(0.25), 0.25),
+            (Offset::relative(0.25), 0.2 * away),
+            (Offset::depth(0.25), 0.25 * range),
+            (Offset::world(-0.25), -0.25),
+        ] {
+            let q = map.receiver_matrix(&offset.expect("sound")) * (point - origin(&map)).as_vec3().extend(1.0);
+            let length = q.xyz().length();
+            let place = (q.xy() / (length + q.z)).as_dvec2();
+            let exact = map.project(point).expect("not behind");
+            assert!((place - exact.truncate()).length() < 1e-5);
+            let depth = f64::from(length - q.w);
+            assert!((depth - (exact.z - moved / range)).abs() < 1e-5, "{depth}, not {exact} less {moved}");
+        }
+    }
+}
+
+#[test]
+fn what_a_bias_costs_is_a_distance() {
+    let [map, _] = both(&Settings::default());
+    let bias = map.bias(DepthFormat::Float32, 1.0).expect("a reach");
+    let point = map.position() + map.axis() * 2.0;
+    let facing = map.bias_distance(point, -map.axis(), &bias);
+    let slanted = map.bias_distance(point, from_light(&map, DVec3::new(0.6, 0.0, -0.8)), &bias);
+    // In the middle a texel is seen under 4/n.
+    let texel = 2.0 * 4.0 / f64::from(map.settings().map_size());
+    let slope = f64::from(bias.slope) * texel * 0.75;
+    assert!(facing > 0.0 && facing < 1e-4 * (map.far() - map.near()), "{facing}");
+    assert!((slanted - facing - slope).abs() < 0.01 * slope, "{slanted}, not {slope}");
+    assert_eq!(map.bias_distance(point, from_light(&map, DVec3::X), &bias), f64::INFINITY);
+    for (reach, problem) in [(0.4, Problem::TooSmall), (1e9, Problem::TooLarge), (f64::NAN, Problem::NotFinite)] {
+        let error = map.bias(DepthFormat::Float32, reach).expect_err("no reach");
+        assert_eq!((error.field, error.problem), ("reach", problem));
+    }
+    assert_eq!(bias.in_shader().y, bias.slope);
 }

@@ -8,6 +8,7 @@ use shadowfit::glam::DVec3;
 use shadowfit::{ClipSpace, DepthFormat};
 
 use crate::ablation::AblationArgs;
+use crate::cut::Cutting;
 use crate::gpu::{Bias, Filter, Points};
 use crate::light::LightSpec;
 use crate::plan::PlanArgs;
@@ -224,6 +225,10 @@ pub struct MapArgs {
     #[arg(long, value_name = "FILTER", default_value_t = Filter::Nearest)]
     pub filter: Filter,
 
+    /// How casters are cut before they are drawn into paraboloids, which bend lines
+    #[arg(long, value_enum, default_value_t = Cutting::Bound)]
+    pub cut: Cutting,
+
     /// Whose clip space the matrix is for; what another API's driver does with it is imitated
     #[arg(long, value_enum, default_value_t = ClipArg::Wgpu)]
     pub clip: ClipArg,
@@ -245,6 +250,7 @@ impl MapArgs {
             faces: self.faces,
             filter: self.filter,
             points: self.points,
+            cut: self.cut,
             bias: self.bias,
             frames,
             ..Options::new(technique, map_size)

@@ -1,55 +1,57 @@
 //! The maps of one light, fitted as a renderer fits them: one for each part of the light that needs one.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use anyhow::{Context, Result};
 use serde::Serialize;
 use shadowfit::glam::DVec3;
-use shadowfit::{CubeFace, Empty, Focus, Form, Light, Map};
+use shadowfit::{Body, CubeFace, Empty, Focus, Form, Light, Paraboloids, Plane, Settings, fit};
 
+use crate::cut::{Cut, Cutting};
 use crate::fitting::{NoMap, map_or_reason};
 use crate::gpu::{MapDraw, MapPass, ShadowMaps};
+use crate::layout::Layout;
 use crate::run::Options;
-use crate::scene::Mesh;
+use crate::scene::{Mesh, Object};
 use crate::split::Split;
 use crate::stage::Stage;
-use crate::verdict::{Frustum, Projection};
 
 /// A map, and the casters that belong in it.
 #[derive(Clone, Debug)]
 pub struct FittedMap {
     /// The map.
-    pub map: Map,
+    pub map: Layout,
     /// How it is drawn.
     pub pass: MapPass,
-    /// The objects that meet H, as indices into those of the mesh.
+    /// The mesh's objects that are drawn into it, those that meet H.
     pub objects: Vec<usize>,
 }
 
 impl FittedMap {
-    /// Fits a map as a renderer does and culls the casters against H; or says why there is no map.
+    /// Fits a frustum as a renderer does and culls the casters against H; or says why there is no map.
     fn new(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
         let focus = Focus::new(&stage.fitted_view, light, &stage.bounds);
         let map = match map_or_reason(focus.fit(&options.settings(stage.size[1])?)) {
-            Ok(map) => map,
+            Ok(map) => Layout::Frustum(map),
             Err(none) => return Ok(Err(none)),
         };
-        let body = focus.body(Form::Tight);
-        let objects = &stage.tracer.mesh().objects;
-        let meets = |&object: &usize| body.meets_box(objects[object].min, objects[object].max);
-        let objects = (0..objects.len()).filter(meets).collect();
+        let objects = casters(stage, &focus.body(Form::Tight), |_| true);
         Ok(Ok(Self { map, pass: options.pass(&map)?, objects }))
     }
+}
 
-    /// How it lays out the world, fitted to a view with its eye there.
-    #[must_use]
-    pub fn projection(&self, eye: DVec3) -> Box<dyn Projection> {
-        Box::new(Frustum::new(&self.map, eye))
-    }
+/// The objects that meet a body and are no others.
+fn casters(stage: &Stage<'_>, body: &Body, is_other: impl Fn(&Object) -> bool) -> Vec<usize> {
+    let objects = stage.tracer.mesh().objects.iter().enumerate();
+    let meets = |object: &Object| body.meets_box(object.min, object.max) && is_other(object);
+    objects.filter(|(_, object)| meets(object)).map(|(index, _)| index).collect()
+}
 
-    fn casters(&self, mesh: &Mesh) -> Vec<Range<u32>> {
-        self.objects.iter().map(|&object| mesh.objects[object].triangles.clone()).collect()
-    }
+/// Whether any of an object's box is before a plane, or behind it by no more than a distance.
+fn is_before(plane: &Plane, behind: f64, object: &Object) -> bool {
+    let farthest = DVec3::select(plane.normal.cmpgt(DVec3::ZERO), object.max, object.min);
+    plane.at(farthest) >= -behind
 }
 
 /// The maps of a light.
@@ -57,10 +59,12 @@ impl FittedMap {
 pub struct FittedMaps {
     /// Which map answers for which points.
     pub split: Split,
-    /// The part of the light that each is for.
+    /// The part of the light that each frustum is for; for paraboloids, the light.
     pub lights: Vec<Light>,
     /// One for each part of the split; `None` for a part that needs none.
     pub maps: Vec<Option<FittedMap>>,
+    /// The casters as they are drawn into paraboloids, where they are cut.
+    pub cut: Option<Arc<Cut>>,
 }
 
 /// What culling against H left to draw, over all maps.
@@ -70,10 +74,12 @@ pub struct Drawn {
     pub objects: usize,
     /// Objects there are.
     pub of_objects: usize,
-    /// Triangles drawn; those in several maps count in each.
+    /// Triangles drawn, as they are cut; those in several maps count in each.
     pub triangles: usize,
-    /// Triangles there are.
+    /// Triangles there are before any cut.
     pub of_triangles: usize,
+    /// How long it took to cut them for paraboloids, in milliseconds; nothing where they are not cut.
+    pub cut_ms: Option<f64>,
 }
 
 impl FittedMaps {
@@ -81,8 +87,11 @@ impl FittedMaps {
     ///
     /// # Errors
     ///
-    /// When the settings cannot be used.
+    /// When the settings cannot be used, or casters cannot be cut.
     pub fn new(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
+        if options.technique.is_paraboloid() && light.position().is_some() {
+            return Self::paraboloids(stage, light, options);
+        }
         let (split, lights) = parts(light, options)?;
         let mut maps = Vec::new();
         let mut reason = NoMap::Empty(Empty::NothingVisible);
@@ -99,8 +108,73 @@ impl FittedMaps {
                 }
             }
         }
-        let has_map = maps.iter().any(Option::is_some);
-        Ok(if has_map { Ok(Self { split, lights, maps }) } else { Err(reason) })
+        if maps.iter().all(Option::is_none) {
+            return Ok(Err(reason));
+        }
+        Ok(Ok(Self::of(stage, split, lights, maps, options.cut)?))
+    }
+
+    fn paraboloids(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
+        let focus = Focus::new(&stage.fitted_view, light, &stage.bounds);
+        let settings = options.settings(stage.size[1])?;
+        let fitted = focus.paraboloids(&settings);
+        let split = match &fitted {
+            Paraboloids::Empty(empty) => return Ok(Err(NoMap::Empty(*empty))),
+            Paraboloids::Two([map, _]) => Split::halves(map.position(), map.axis()),
+            Paraboloids::One(_) | Paraboloids::Directional => Split::whole(),
+        };
+        let body = focus.body(Form::Tight);
+        let (min, max) = stage.tracer.bounds();
+        let mut maps = Vec::new();
+        for map in fitted.maps() {
+            let reach = (max - min).length() + map.far();
+            // As far behind the light as the border shows.
+            let square = f64::from(map.clip_scale().length_squared()) / 2.0;
+            let behind = (1.0 - square) / (1.0 + square) * reach;
+            let objects = casters(stage, &body, |object| is_before(&map.clip_plane(), behind, object));
+            let map = Layout::Paraboloid(*map);
+            maps.push(Some(FittedMap { map, pass: options.pass(&map)?, objects }));
+        }
+        Ok(Ok(Self::of(stage, split, vec![*light], maps, options.cut)?))
+    }
+
+    /// Of maps that were fitted before, one for each part of a split; cuts what is drawn into paraboloids.
+    ///
+    /// # Errors
+    ///
+    /// When casters cannot be cut, or the card has no room for them.
+    pub fn of(
+        stage: &Stage<'_>,
+        split: Split,
+        lights: Vec<Light>,
+        maps: Vec<Option<FittedMap>>,
+        cutting: Cutting,
+    ) -> Result<Self> {
+        let (mesh, origin) = (stage.tracer.mesh(), stage.geometry.origin());
+        let mut is_drawn = vec![false; mesh.objects.len()];
+        for &object in maps.iter().flatten().flat_map(|map| &map.objects) {
+            is_drawn[object] = true;
+        }
+        // The other hemisphere's map bends edges alike.
+        let cut = match maps.iter().flatten().next().map(|map| &map.map) {
+            Some(Layout::Paraboloid(map)) => Cut::new(stage.gpu, origin, mesh, &is_drawn, map, cutting)?,
+            _ => None,
+        };
+        Ok(Self { split, lights, maps, cut: cut.map(Arc::new) })
+    }
+
+    /// Fits all again, for the time that it takes; how many maps there are.
+    #[must_use]
+    pub fn fit_again(&self, stage: &Stage<'_>, settings: &Settings) -> usize {
+        let is_paraboloid = self.maps.iter().flatten().any(|map| matches!(map.map, Layout::Paraboloid(_)));
+        let maps = |light: &Light| {
+            if is_paraboloid {
+                Focus::new(&stage.fitted_view, light, &stage.bounds).paraboloids(settings).maps().len()
+            } else {
+                usize::from(fit(&stage.fitted_view, light, &stage.bounds, settings).map().is_some())
+            }
+        };
+        self.lights.iter().map(maps).sum()
     }
 
     /// Draws the casters.
@@ -109,24 +183,41 @@ impl FittedMaps {
     ///
     /// When the card refuses.
     pub fn draw(&self, stage: &Stage<'_>) -> Result<ShadowMaps> {
-        let mesh = stage.tracer.mesh();
-        let casters: Vec<_> = self.maps.iter().map(|map| map.as_ref().map(|map| map.casters(mesh))).collect();
-        let with_casters = self.maps.iter().zip(&casters).map(|(map, casters)| map.as_ref().zip(casters.as_ref()));
-        let draws: Vec<_> = with_casters
-            .map(|both| both.map(|(map, casters)| MapDraw { map: &map.map, casters, pass: map.pass }))
+        let casters: Vec<_> = self.maps.iter().flatten().map(|map| self.casters(stage, map)).collect();
+        let mut casters = casters.iter();
+        let draws: Vec<_> = self
+            .maps
+            .iter()
+            .map(|map| {
+                let FittedMap { map, pass, .. } = map.as_ref()?;
+                Some(MapDraw { map: *map, casters: casters.next()?, pass: *pass })
+            })
             .collect();
-        ShadowMaps::draw(stage.gpu, &stage.geometry, &self.split, &draws)
+        let geometry = self.cut.as_ref().map_or(&stage.geometry, |cut| &cut.geometry);
+        ShadowMaps::draw(stage.gpu, geometry, &self.split, &draws)
+    }
+
+    /// The triangles of what is drawn into a map.
+    fn casters(&self, stage: &Stage<'_>, map: &FittedMap) -> Vec<Range<u32>> {
+        let mesh = self.mesh(stage);
+        map.objects.iter().map(|&object| mesh.objects[object].triangles.clone()).collect()
+    }
+
+    /// What is drawn of.
+    fn mesh<'a>(&'a self, stage: &Stage<'a>) -> &'a Mesh {
+        self.cut.as_ref().map_or(stage.tracer.mesh(), |cut| &cut.mesh)
     }
 
     /// What belongs in the maps.
     #[must_use]
-    pub fn drawn(&self, mesh: &Mesh) -> Drawn {
-        let casters = || self.maps.iter().flatten().flat_map(|map| map.casters(mesh));
+    pub fn drawn(&self, stage: &Stage<'_>) -> Drawn {
+        let casters = || self.maps.iter().flatten().flat_map(|map| self.casters(stage, map));
         Drawn {
             objects: casters().count(),
-            of_objects: mesh.objects.len(),
+            of_objects: stage.tracer.mesh().objects.len(),
             triangles: casters().map(|triangles| triangles.len()).sum(),
-            of_triangles: mesh.triangles.len(),
+            of_triangles: stage.tracer.mesh().triangles.len(),
+            cut_ms: self.cut.as_ref().map(|cut| cut.time.as_secs_f64() * 1e3),
         }
     }
 }

@@ -16,6 +16,7 @@
 //! | [`verdict`] | the truth about every pixel, and what is wrong with a rendered one |
 //! | [`stage`] | one camera before one scene, drawn |
 //! | [`split`] | which of a light's maps answers for a point |
+//! | [`layout`], [`cut`] | the kinds of maps, and triangles cut for those that bend lines |
 //! | [`technique`], [`fitted_maps`], [`run`] | one light through one kind of map: fitted, culled, drawn, tested, judged |
 //! | [`report`], [`table`], [`check_table`] | what is written and printed of it |
 //! | [`picture`] | what is written as PNG |
@@ -40,12 +41,14 @@ pub mod ablation;
 pub mod args;
 pub mod check;
 pub mod check_table;
+pub mod cut;
 pub mod draw;
 pub mod fitted_maps;
 pub mod fitting;
 pub mod fitting_table;
 pub mod framing;
 pub mod gpu;
+pub mod layout;
 pub mod light;
 pub mod opening;
 pub mod picture;

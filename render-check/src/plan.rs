@@ -5,7 +5,7 @@ use std::time::Duration;
 use anyhow::{Context, Result, ensure};
 use clap::builder::RangedU64ValueParser;
 use serde::Serialize;
-use shadowfit::{Budget, Kind, Light, LightPlan, Objects, Origin, Plan, Settings, plan as make_plan};
+use shadowfit::{Budget, Light, LightPlan, Objects, Origin, Plan, Settings, plan as make_plan};
 
 use crate::args::{FormatArg, ViewArgs};
 use crate::fitted_maps::FittedMaps;
@@ -160,8 +160,8 @@ pub struct LightReport {
     pub aliasing: f64,
     /// Why it is so, in words.
     pub reasons: Vec<String>,
-    /// What came of drawing it; nothing where it was planned and not drawn.
-    pub drawn: Option<DrawnReport>,
+    /// What came of drawing it.
+    pub drawn: DrawnReport,
 }
 
 /// What came of drawing what the plan says.
@@ -208,7 +208,7 @@ pub fn plan(args: &PlanArgs) -> Result<()> {
     report::write(&report, &out.join("plan.json"))?;
     say(&format!("wrote plan.json to {}", out.display()));
     let missing: usize =
-        report.lights.iter().filter_map(|light| Some(light.drawn.as_ref()?.verdict.counts.missing)).sum();
+        report.lights.iter().map(|light| light.drawn.verdict.counts.missing).sum();
     ensure!(
         missing == 0,
         "{missing} pixels are lit because a caster is missing from a map, or a map from the plan"
@@ -253,15 +253,12 @@ impl LightReport {
     ) -> Result<Self> {
         let options = planned::options(of_light, args.budget.format.into(), args.points, args.frames);
         let mesh: &Mesh = stage.tracer.mesh();
-        let drawn = match of_light.kind() {
-            Kind::Paraboloid | Kind::DualParaboloid => None,
-            _ => Some(match FittedMaps::planned(plan, &light.light, of_light, &options)? {
-                Some(fitted) => {
-                    let run = run_fitted(stage, light, &options, fitted, Duration::ZERO)?;
-                    DrawnReport::new(Some(run.times), run.verdict)
-                }
-                None => DrawnReport::new(None, Verdict::without_map(&light.truth)),
-            }),
+        let drawn = match FittedMaps::planned(stage, plan, &light.light, of_light, &options)? {
+            Some(fitted) => {
+                let run = run_fitted(stage, light, &options, fitted, Duration::ZERO)?;
+                DrawnReport::new(Some(run.times), run.verdict)
+            }
+            None => DrawnReport::new(None, Verdict::without_map(&light.truth)),
         };
         let passes = of_light.passes();
         Ok(Self {
@@ -311,13 +308,7 @@ fn overview(report: &PlanReport) -> comfy_table::Table {
         let mut row =
             vec![light.light.clone(), light.kind.clone(), light.test.clone(), light.filter.to_string(), maps];
         row.push(format!("{} of {}, {}", light.objects, light.of_objects, light.triangles));
-        match &light.drawn {
-            Some(drawn) => row.extend(drawn_cells(light, drawn)),
-            None => {
-                row.push(number(light.aliasing));
-                row.push("not drawn".into());
-            }
-        }
+        row.extend(drawn_cells(light, &light.drawn));
         row.resize(COLUMNS.len(), "-".into());
         table.add_row(row);
     }

@@ -1,17 +1,20 @@
 //! A scene as the planner wants it, and a light's plan as what is drawn.
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use shadowfit::glam::{DVec3, Vec3};
 use shadowfit::{
     Aabb, CubeFace, DepthFormat, DepthTest, Kind, Light, LightPlan, Object, Objects, Plan, Projection, Shift,
     Surface, Warp,
 };
 
+use crate::cut::Cutting;
 use crate::fitted_maps::{FittedMap, FittedMaps};
 use crate::gpu::{Bias, Filter, MapPass, Points};
+use crate::layout::Layout;
 use crate::run::Options;
 use crate::scene::{self, Mesh};
 use crate::split::Split;
+use crate::stage::Stage;
 use crate::technique::Technique;
 use crate::trace::Faces;
 
@@ -84,6 +87,8 @@ pub fn options(of_light: &LightPlan, format: DepthFormat, points: Points, frames
         filter: filter(of_light.filter(), of_light.virtual_samples()),
         points,
         frames,
+        // A plan has paraboloids only for what is cut finely enough as it is.
+        cut: Cutting::None,
         ..Options::new(technique(of_light), map_size)
     }
 }
@@ -120,20 +125,34 @@ impl FittedMaps {
     ///
     /// # Errors
     ///
-    /// When a map of the plan is a paraboloid, which is not drawn here.
-    pub fn planned(plan: &Plan, light: &Light, of_light: &LightPlan, options: &Options) -> Result<Option<Self>> {
-        let (split, lights) = match (of_light.kind(), light.position()) {
-            (Kind::CubeFaces, Some(position)) => {
+    /// When a face of a cube cannot be made, or the card has no room.
+    pub fn planned(
+        stage: &Stage<'_>,
+        plan: &Plan,
+        light: &Light,
+        of_light: &LightPlan,
+        options: &Options,
+    ) -> Result<Option<Self>> {
+        let axes = of_light.passes().iter().filter_map(|pass| match pass.projection() {
+            Projection::Paraboloid(paraboloid) => Some(paraboloid.axis()),
+            Projection::Frustum(_) | Projection::Face(..) => None,
+        });
+        let first_axis = axes.clone().next();
+        let (split, lights) = match (of_light.kind(), light.position(), first_axis) {
+            (Kind::CubeFaces, Some(position), _) => {
                 (Split::cube(position), cube_faces(light, options.filter, options.map_size, options.border())?)
             }
+            (Kind::DualParaboloid, Some(position), Some(axis)) => (Split::halves(position, axis), vec![*light]),
             _ => (Split::whole(), vec![*light]),
         };
         let mut maps = vec![None; split.parts()];
         for pass in of_light.passes() {
             let (part, map) = match pass.projection() {
-                Projection::Frustum(map) => (0, *map),
-                Projection::Face(face, map) => (*face as usize, *map),
-                Projection::Paraboloid(_) => bail!("a paraboloid is planned, not drawn"),
+                Projection::Frustum(map) => (0, Layout::Frustum(*map)),
+                Projection::Face(face, map) => (*face as usize, Layout::Frustum(*map)),
+                Projection::Paraboloid(map) => {
+                    (usize::from(Some(map.axis()) != first_axis), Layout::Paraboloid(*map))
+                }
             };
             let objects = plan.casters(pass).iter().map(|&id| id as usize).collect();
             let (bias, receiver) = bias(pass);
@@ -141,7 +160,10 @@ impl FittedMaps {
                 MapPass { format: options.format, faces: options.faces, bias, receiver, points: options.points };
             maps[part] = Some(FittedMap { map, pass, objects });
         }
-        Ok(maps.iter().any(Option::is_some).then_some(Self { split, lights, maps }))
+        if maps.iter().all(Option::is_none) {
+            return Ok(None);
+        }
+        Self::of(stage, split, lights, maps, options.cut).map(Some)
     }
 }
 

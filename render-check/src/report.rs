@@ -12,6 +12,7 @@ use crate::args::ClipArg;
 use crate::fitted_maps::{Drawn, FittedMap};
 use crate::fitting::NoMap;
 use crate::gpu::{Filter, MapPass};
+use crate::layout::Layout;
 use crate::run::{MapRun, Options, Times};
 use crate::stage::StageLight;
 use crate::technique::Technique;
@@ -103,18 +104,21 @@ pub struct MapsReport {
 pub struct MapReport {
     /// The middle direction of the part of the light that it is for; zeros for all of the light.
     pub axis: [f64; 3],
-    /// How far the warp's camera moved back, in world units.
-    pub shift: f64,
-    /// How much of the warp is left out, see [`shadowfit::Map::weakening`].
-    pub weakening: f64,
+    /// How far the warp's camera moved back, in world units; nothing for a paraboloid.
+    pub shift: Option<f64>,
+    /// How much of the warp is left out, see [`shadowfit::Map::weakening`]; nothing for a paraboloid.
+    pub weakening: Option<f64>,
     /// How the map was drawn.
     pub pass: MapPass,
 }
 
 impl MapReport {
     fn new(axis: DVec3, fitted: &FittedMap) -> Self {
-        let map = &fitted.map;
-        Self { axis: axis.to_array(), shift: map.camera().shift, weakening: map.weakening(), pass: fitted.pass }
+        let (shift, weakening) = match &fitted.map {
+            Layout::Frustum(map) => (Some(map.camera().shift), Some(map.weakening())),
+            Layout::Paraboloid(_) => (None, None),
+        };
+        Self { axis: axis.to_array(), shift, weakening, pass: fitted.pass }
     }
 }
 

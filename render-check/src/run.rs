@@ -5,12 +5,14 @@ use std::time::Duration;
 use anyhow::{Context, Result};
 use serde::Serialize;
 use shadowfit::glam::DVec3;
-use shadowfit::{DepthFormat, Map, Origin, Settings, fit};
+use shadowfit::{DepthFormat, Origin, Settings};
 
 use crate::args::ClipArg;
+use crate::cut::Cutting;
 use crate::fitted_maps::{Drawn, FittedMaps};
 use crate::fitting::{NoMap, median_time};
 use crate::gpu::{Bias, Filter, MapPass, Points, ShadowMaps, Shadows, shadow_test};
+use crate::layout::Layout;
 use crate::stage::{Stage, StageLight};
 use crate::technique::Technique;
 use crate::trace::Faces;
@@ -33,7 +35,9 @@ pub struct Options {
     pub filter: Filter,
     /// What is drawn for the points of clouds.
     pub points: Points,
-    /// What is added to depth; `None` for what the map says that the filter needs, see [`Map::bias`].
+    /// How casters are cut for paraboloids.
+    pub cut: Cutting,
+    /// What is added to depth; `None` for what the map says that the filter needs, see [`Layout::bias`].
     pub bias: Option<Bias>,
     /// How often it is drawn and read, for the median of the times.
     pub frames: u32,
@@ -51,6 +55,7 @@ impl Options {
             faces: Faces::All,
             filter: Filter::Nearest,
             points: Points::default(),
+            cut: Cutting::default(),
             bias: None,
             frames: 1,
         }
@@ -61,12 +66,12 @@ impl Options {
     /// # Errors
     ///
     /// When the filter reaches nowhere.
-    pub fn pass(&self, map: &Map) -> Result<MapPass> {
+    pub fn pass(&self, map: &Layout) -> Result<MapPass> {
         let (bias, receiver) = match (self.bias, self.faces, self.filter) {
             (Some(bias), ..) => (bias, 0.0),
             (None, Faces::Second | Faces::Layers, _) | (None, _, Filter::Virtual(_)) => (Bias::NONE, 0.0),
             _ => {
-                let enough = map.bias(self.format, self.filter.reach()).context("there is no such filter")?;
+                let enough = map.bias(self.format, self.filter.reach())?;
                 (Bias { constant: enough.constant, slope: enough.slope }, enough.receiver)
             }
         };
@@ -142,13 +147,7 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
         Err(none) => return Ok(Err(none)),
     };
     let settings = options.settings(stage.size[1])?;
-    let fit_all = || {
-        fitted
-            .lights
-            .iter()
-            .filter(|light| fit(&stage.fitted_view, light, &stage.bounds, &settings).map().is_some())
-            .count()
-    };
+    let fit_all = || fitted.fit_again(stage, &settings);
     // A fit takes a few hundred times less than a frame.
     let fit_time = median_time(300 * options.frames as usize - 299, fit_all);
     Ok(Ok(run_fitted(stage, light, options, fitted, fit_time)?))
@@ -186,7 +185,7 @@ pub fn run_fitted(
         camera_ms: median_ms(vec![stage.surfaces.time]),
         shadow_test_ms: median_ms(shadow_test_times),
     };
-    let drawn = fitted.drawn(stage.tracer.mesh());
+    let drawn = fitted.drawn(stage);
     let used_plane = matches!(options.filter, Filter::Virtual(_)).then(|| light.truth.share(&used_plane));
     Ok(MapRun { fitted, depths, lit, used_plane, drawn, times, verdict })
 }
@@ -201,7 +200,7 @@ fn judged(
     lit: &[f32],
 ) -> Result<Verdict> {
     let projections: Vec<Option<Box<dyn Projection>>> =
-        fitted.maps.iter().map(|map| map.as_ref().map(|map| map.projection(stage.view.eye()))).collect();
+        fitted.maps.iter().map(|map| map.as_ref().map(|map| map.map.projection(stage.view.eye()))).collect();
     let mut depths = depths.iter();
     let maps: Vec<Option<DrawnMap<'_>>> = fitted
         .maps

@@ -27,6 +27,12 @@ impl Split {
         Self { position, axes: CubeFace::ALL.map(CubeFace::axis).to_vec() }
     }
 
+    /// The half spaces before and behind a light.
+    #[must_use]
+    pub fn halves(position: DVec3, axis: DVec3) -> Self {
+        Self { position, axes: vec![axis, -axis] }
+    }
+
     /// Where the light is, in world space.
     #[must_use]
     pub fn position(&self) -> DVec3 {
@@ -57,6 +63,15 @@ impl Split {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn halves_are_on_both_sides() {
+        let (position, axis) = (DVec3::new(3.0, -2.0, 0.5), DVec3::new(0.6, 0.0, 0.8));
+        let halves = Split::halves(position, axis);
+        for (along, part) in [(2.0, 0), (1e-9, 0), (0.0, 0), (-1e-9, 1), (-2.0, 1)] {
+            assert_eq!(halves.part_of(position + along * axis + DVec3::Y), part, "{along}");
+        }
+    }
 
     #[test]
     fn parts_of_a_cube_are_its_faces() {

@@ -21,6 +21,8 @@ pub enum Technique {
     Cube,
     /// The perspective shadow map of each face of the cube around a lamp
     CubePsm,
+    /// One or two paraboloids around a lamp, as many as it needs
+    Paraboloid,
 }
 
 impl Technique {
@@ -36,11 +38,17 @@ impl Technique {
         matches!(self, Self::Cube | Self::CubePsm)
     }
 
+    /// Whether lamps have maps that are no frusta.
+    #[must_use]
+    pub fn is_paraboloid(self) -> bool {
+        self == Self::Paraboloid
+    }
+
     /// The settings with this technique's warp and shift.
     #[must_use]
     pub fn settings(self, settings: Settings) -> Settings {
         let (warp, shift) = match self {
-            Self::Uniform | Self::Cube => (Warp::Uniform, Shift::None),
+            Self::Uniform | Self::Cube | Self::Paraboloid => (Warp::Uniform, Shift::None),
             Self::Psm | Self::CubePsm => (Warp::Perspective, Shift::Back(Form::Paper)),
             Self::PsmTight => (Warp::Perspective, Shift::Back(Form::Tight)),
             Self::PsmUnshifted => (Warp::Perspective, Shift::None),

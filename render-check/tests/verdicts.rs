@@ -11,7 +11,9 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use render_check::cut::Cutting;
 use render_check::gpu::{Bias, Filter, Gpu, MapDraw, MapPass, Points, ShadowMaps, shadow_test};
+use render_check::layout::Layout;
 use render_check::light::LightSpec;
 use render_check::run::{MapRun, Options, run};
 use render_check::scene::{self, LoadedScene};
@@ -21,6 +23,7 @@ use render_check::sweep::{GROUPS, Summary, SweepRun, run_shots};
 use render_check::technique::Technique;
 use render_check::trace::{Faces, Tracer};
 use render_check::verdict::{self, Counts, DrawnMap, Frustum, Rendered, Verdict, judge};
+use shadowfit::glam::DVec3;
 use shadowfit::{DepthFormat, Map, Origin, Settings, View, fit};
 
 fn gpu() -> Gpu {
@@ -117,6 +120,73 @@ fn lights_inside_the_scene_have_a_map_a_cube_or_a_reason() {
         runs.iter().any(|run| run.run.technique.has_faces() && passes(run) == 3),
         "one behind the view does not"
     );
+}
+
+/// Paraboloids of casters that are cut as the crate says. Vulkan's and OpenGL's clip spaces among them.
+#[test]
+fn paraboloids_miss_no_caster() {
+    let runs = sweep("paraboloids", 0.005);
+    for run in &runs {
+        let counts = verdict(run).expect("a map").counts;
+        let most = if faces(run) == Faces::Second { 0.005 } else { 0.0036 };
+        assert!(counts.shadowed > 1000 && counts.fraction(counts.faults()) <= most, "{run}: {counts:?}");
+    }
+    let two = |run: &&SweepRun| run.case == "room, in view";
+    assert!(runs.iter().filter(two).count() > 3 && runs.iter().filter(two).all(|run| passes(run) == 2));
+    assert!(runs.iter().filter(|run| run.case == "room, in its shade").all(|run| passes(run) == 1));
+}
+
+/// What straight edges make of a paraboloid: the shade around the lamp is small, and the light sees each of its facets
+/// under a large angle. Cutting walls on a grid does nothing for it; cutting by the angle does.
+#[test]
+fn casters_that_are_not_cut_are_missed() {
+    let scene = scene::load(Path::new("room")).expect("built in");
+    let view = scene.camera.expect("it has one").view(1.6, 0.5, 9.0).expect("sound");
+    let (gpu, tracer) = (gpu(), Tracer::new(&scene.mesh).expect("it has triangles"));
+    let stage = Stage::new(&gpu, &tracer, &view, IMAGE).expect("drawn");
+    let light = stage.light(scene.lights[0]).expect("sound");
+    let [none, grid, bound] = [Cutting::None, Cutting::Grid, Cutting::Bound].map(|cut| {
+        let options = Options { cut, ..Options::new(Technique::Paraboloid, 512) };
+        run(&stage, &light, &options).expect("drawn").unwrap_or_else(|none| panic!("{none}"))
+    });
+    let share = |run: &MapRun, count: usize| run.verdict.counts.fraction(count);
+    for run in [&none, &grid] {
+        assert!(share(run, run.verdict.counts.missing) > 0.1, "{:?}", run.verdict.counts);
+    }
+    // But the walls are better for it: bent edges let shadows fall beside where they should.
+    let false_shadow = |run: &MapRun| share(run, run.verdict.counts.false_shadow);
+    assert!(false_shadow(&none) > 3.0 * false_shadow(&grid), "{} {}", false_shadow(&none), false_shadow(&grid));
+    assert_eq!(bound.verdict.counts.missing, 0);
+    assert!(bound.drawn.triangles > bound.drawn.of_triangles && bound.drawn.cut_ms.is_some());
+    assert!(none.drawn.triangles <= none.drawn.of_triangles && none.drawn.cut_ms.is_none());
+}
+
+/// Along the seam between two hemispheres, where both maps are read at their rims, pixels are as right as elsewhere: two
+/// are false, at the crease where a wall turns into the window.
+#[test]
+fn the_seam_between_hemispheres_does_not_show() {
+    let scene = scene::load(Path::new("room")).expect("built in");
+    let view = scene.camera.expect("it has one").view(1.6, 0.5, 9.0).expect("sound");
+    let (gpu, tracer) = (gpu(), Tracer::new(&scene.mesh).expect("it has triangles"));
+    let stage = Stage::new(&gpu, &tracer, &view, [480, 300]).expect("drawn");
+    let position = DVec3::new(0.0, 1.5, -2.5);
+    let light = stage.light(LightSpec::Point { position, range: f64::INFINITY }).expect("sound");
+    for filter in [Filter::Nearest, Filter::PercentageCloser(5)] {
+        let options = Options { filter, ..Options::new(Technique::Paraboloid, 512) };
+        let run = run(&stage, &light, &options).expect("drawn").unwrap_or_else(|none| panic!("{none}"));
+        let (mut at_seam, mut faults) = (0, 0);
+        for (pixel, mark) in light.truth.pixels().iter().zip(&run.verdict.marks) {
+            let Some((surface, _)) = pixel.compared() else { continue };
+            let arm = surface.point - position;
+            // Within four texels of it, in which a texel is a 256th of the radius.
+            if arm.y.abs() < arm.length() * 4.0 / 256.0 {
+                at_seam += 1;
+                faults += usize::from(mark.fault().is_some());
+            }
+        }
+        assert!(at_seam > 300, "{at_seam}");
+        assert!(faults * 500 < at_seam, "{faults} of {at_seam}, {filter}");
+    }
 }
 
 fn passes(run: &SweepRun) -> usize {
@@ -320,7 +390,7 @@ fn judged(stage: &Stage<'_>, light: &StageLight, map: &Map, casters: &[std::ops:
     let pass =
         MapPass { format: DepthFormat::Unorm24, faces: Faces::All, bias, receiver: 0.0, points: Points::Discs };
     let split = Split::whole();
-    let draw = MapDraw { map, casters, pass };
+    let draw = MapDraw { map: Layout::Frustum(*map), casters, pass };
     let shadow_maps = ShadowMaps::draw(stage.gpu, &stage.geometry, &split, &[Some(draw)]).expect("drawn");
     let lit = shadow_test(stage.gpu, &stage.surfaces, &shadow_maps, Filter::Nearest).expect("tested").lit;
     let depths = shadow_maps.depths(stage.gpu).expect("readable");

@@ -1,5 +1,6 @@
 //! Paraboloid maps: half of everything around a light in one map.
 
+mod bias;
 mod cut;
 mod fit;
 mod rounding;
@@ -7,13 +8,13 @@ mod rounding;
 pub use fit::Paraboloids;
 pub use rounding::ParaboloidRounding;
 
-use crate::clip_space::{DepthRange, TextureOrigin, YAxis};
+use crate::clip_space::{TextureOrigin, YAxis};
 use crate::convex::{Plane, matrix_from_rows};
 use crate::light::Light;
 use crate::quality::{DepthFormat, Footprint};
 use crate::settings::{Origin, Settings};
 use crate::view::View;
-use glam::{DMat4, DVec2, DVec3, Mat4, Vec4};
+use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec4};
 
 /// A fitted paraboloid map: the half of everything around a light that its axis points into (Brabec, Annen & Seidel 2002,
 /// §3).
@@ -39,17 +40,19 @@ use glam::{DMat4, DVec2, DVec3, Mat4, Vec4};
 /// # Drawing with it
 ///
 /// The projection is no matrix, but all of it that differs from map to map is. The renderer uploads
-/// [`Self::matrix`] and [`Self::clip_scale`], and the vertex shader computes
+/// [`Self::matrix`], [`Self::clip_scale`] and [`Self::texture_scale`]; for each vertex
 ///
 /// ```text
 ///     q        = matrix · (position, 1)
 ///     (u, v)   = q.xy / (|q.xyz| + q.z)
-///     clip     = ((u, v) · scale.xy, (|q.xyz| − q.w) · scale.z + scale.w, 1)
+///     clip     = ((u, v) · clip_scale, 0, 1)
+///     depth    = |q.xyz| − q.w
 /// ```
 ///
-/// What is drawn with it must be cut at [`Self::clip_plane`], and cut so finely that straight lines between vertices are
-/// as good as the arcs that they should be: [`Self::largest_edge`] says how finely, and what is left
-/// ([`Self::edge_error`], [`Self::edge_depth_error`]).
+/// and depth is written by the fragment shader, which finds that of the triangle's plane and discards what is behind
+/// [`Self::clip_plane`]: [`wgsl::PARABOLOID`](crate::wgsl::PARABOLOID) has both. What is drawn must be cut so finely that straight
+/// lines between vertices are as good as the arcs that they should be: [`Self::largest_edge`] says how finely, and what is
+/// left ([`Self::edge_error`]; [`Self::edge_depth_error`] where the depth is left to the rasteriser).
 ///
 /// # Guarantees
 ///
@@ -90,23 +93,14 @@ impl Paraboloid {
         matrix_from_rows([x, y, z, Plane::ONE * (self.near * scale)])
     }
 
-    /// What takes (u, v) and depth to clip space in the convention of the settings: factors for x and y, a factor and a
-    /// summand for depth.
+    /// What takes (u, v) to clip space in the convention of the settings: factors for x and y.
     ///
-    /// The factors for x and y leave room for the border of the settings around the disc. They cannot be part of the
-    /// matrix, because the length of q must be the same all around. That leaves one more value to upload; it takes the
-    /// clip convention along, so that the shader is the same for all of them.
+    /// They leave room for the border of the settings around the disc, and cannot be part of the matrix, because the length
+    /// of q must be the same all around.
     #[must_use]
-    pub fn clip_scale(&self) -> Vec4 {
-        let (clip, inner) = (self.settings.clip(), self.settings.inner() as f32);
-        let y = if clip.y == YAxis::Up { inner } else { -inner };
-        let (factor, summand) = match clip.depth {
-            DepthRange::ZeroToOne => (1.0, 0.0),
-            DepthRange::ZeroToOneReversed => (-1.0, 1.0),
-            DepthRange::NegativeOneToOne => (2.0, -1.0),
-            DepthRange::NegativeOneToOneReversed => (-2.0, 1.0),
-        };
-        Vec4::new(inner, y, factor, summand)
+    pub fn clip_scale(&self) -> Vec2 {
+        let inner = self.settings.inner() as f32;
+        Vec2::new(inner, if self.settings.clip().y == YAxis::Up { inner } else { -inner })
     }
 
     /// What takes (u, v) and depth to texture space: factors for x and y, to which ½ is added, and a factor and a summand

@@ -34,6 +34,10 @@ const PLACE: f64 = 7.0 * UNIT;
 /// Of depth, where it is 1 at most: turning it to another convention.
 const TURN: f64 = 2.0 * UNIT;
 
+/// Interpolation of what a fragment's distance is made of, relative: the division by the divisor, a few roundings of corners
+/// up to twice as near, and the half dozen products and sums that the plane is made of.
+const INTERPOLATION: f64 = 32.0 * UNIT;
+
 /// A depth range is at least so many times as long as the rounding in it, as for frusta.
 const QUIET: f64 = 1_048_576.0;
 
@@ -57,6 +61,29 @@ impl Paraboloid {
             texels: across * self.texels_per_unit(),
             depth: self.of_distance(point) / self.range() + TURN,
         }
+    }
+
+    /// How far f32 can carry anything in the map's hemisphere, or in depth what the rasteriser interpolates for a fragment
+    /// shader, at distances from the light from `least` to `most`.
+    pub(super) fn noise_between(&self, least: f64, most: f64) -> ParaboloidRounding {
+        let moved = self.moved_within(least);
+        // At the rim h is the distance, and no smaller elsewhere.
+        let of_reach = 2.0 * moved + (LENGTH + 2.0 * UNIT) * least;
+        let left = least - of_reach;
+        let across = if left > 0.0 { (moved + of_reach) / left + PLACE } else { f64::INFINITY };
+        let depth = self.moved_within(most) + (LENGTH + INTERPOLATION) * most + 2.0 * UNIT * (most + self.near);
+        ParaboloidRounding { texels: across * self.texels_per_unit(), depth: depth / self.range() + TURN }
+    }
+
+    /// Rounding of q over points so near to the light.
+    fn moved_within(&self, distance: f64) -> f64 {
+        let origin = self.origin();
+        let offset = (origin - self.position).abs();
+        let of_row = |axis: DVec3| {
+            let axis = axis.abs();
+            ROW * (2.0 * axis.dot(offset) + distance) + ROW_F64 * axis.dot(origin.abs() + self.position.abs())
+        };
+        DVec3::from([self.x_axis, self.y_axis, self.axis].map(of_row)).length()
     }
 
     /// Rounding of r less the near distance, in world units.

@@ -266,7 +266,7 @@ impl Projection {
     fn bias(&self, format: DepthFormat, reach: f64) -> Option<DepthBias> {
         match self {
             Self::Frustum(map) | Self::Face(_, map) => map.bias(format, reach).ok(),
-            Self::Paraboloid(_) => None,
+            Self::Paraboloid(paraboloid) => paraboloid.bias(format, reach).ok(),
         }
     }
 }

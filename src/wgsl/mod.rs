@@ -8,9 +8,21 @@ mod frustum;
 
 pub use frustum::{BETWEEN_LAYERS, FILTERS, MAP, MAP_ARRAY, PROJECT, VIRTUAL_SAMPLES};
 
-/// Paraboloid maps: `shadowfit_paraboloid_clip` for the vertices of casters, `shadowfit_paraboloid_texture` for what reads
-/// the map. See [`Paraboloid`](crate::Paraboloid).
+/// Paraboloid maps, drawn and read, see [`Paraboloid`](crate::Paraboloid). `ShadowfitParaboloidVertex` can be what a vertex shader
+/// gives and a fragment shader takes, as it is; the fragment shader writes the depth that it is given.
+///
+/// ```wgsl
+/// struct ShadowfitParaboloidVertex { @builtin(position) position: vec4<f32>, @location(0) surface: vec4<f32> }
+/// fn shadowfit_paraboloid_clip(
+///     matrix: mat4x4<f32>, clip_scale: vec2<f32>, position: vec3<f32>,
+/// ) -> ShadowfitParaboloidVertex
+/// fn shadowfit_paraboloid_depth(
+///     matrix: mat4x4<f32>, clip_scale: vec2<f32>, texture_scale: vec4<f32>, vertex: ShadowfitParaboloidVertex, bias: vec2<f32>,
+/// ) -> f32
+/// fn shadowfit_paraboloid_texture(matrix: mat4x4<f32>, texture_scale: vec4<f32>, position: vec3<f32>) -> vec4<f32>
+/// ```
 pub const PARABOLOID: &str = include_str!("paraboloid.wgsl");
+
 /// Discs and balls as quads in a shadow map, each of its [`covering`](crate::Splat::covering) size and of its own depth.
 ///
 /// - `shadowfit_disc_splat(shadow_from_world, centre, normal, radius, map_size, corner)`: the clip position of a corner of

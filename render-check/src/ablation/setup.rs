@@ -4,12 +4,14 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
 use shadowfit::{
-    Aabb, Budget, CubeFace, DepthTest, Focus, Form, Kind, Light, LightPlan, Map, Objects, Origin, Outcome, Plan,
+    Aabb, Budget, CubeFace, DepthTest, Focus, Form, Kind, Light, LightPlan, Objects, Origin, Outcome, Plan,
     Scene, Settings, Shift, View, Warp, plan,
 };
 
+use crate::cut::Cutting;
 use crate::fitted_maps::{FittedMap, FittedMaps};
 use crate::gpu::{Filter, Points};
+use crate::layout::Layout;
 use crate::planned;
 use crate::run::{MapRun, Options, run_fitted};
 use crate::split::Split;
@@ -71,7 +73,7 @@ impl<'a> Setup<'a> {
     pub(super) fn planned(&self) -> Result<Option<Maps>> {
         let of_light = self.of_light();
         let options = planned::options(of_light, self.budget.format(), Points::Discs, self.frames);
-        let fitted = FittedMaps::planned(&self.plan, &self.light.light, of_light, &options)?;
+        let fitted = FittedMaps::planned(self.stage, &self.plan, &self.light.light, of_light, &options)?;
         Ok(fitted.map(|fitted| Maps { fitted, options }))
     }
 
@@ -162,11 +164,9 @@ impl<'a> Setup<'a> {
             return Ok(Some(self.undiscerning(&self.cube(&everywhere, &settings, &options)?)));
         }
         let fitted = self.fit(&everywhere, &light, &settings, &options)?;
-        let maps = |fitted| Maps {
-            fitted: FittedMaps { split: Split::whole(), lights: vec![light], maps: vec![Some(fitted)] },
-            options,
-        };
-        Ok(fitted.map(maps).map(|maps| self.undiscerning(&maps)))
+        let Some(fitted) = fitted else { return Ok(None) };
+        let fitted = self.of(Split::whole(), vec![light], vec![Some(fitted)])?;
+        Ok(Some(self.undiscerning(&Maps { fitted, options })))
     }
 
     fn cube(&self, view: &View, settings: &Settings, options: &Options) -> Result<Maps> {
@@ -174,15 +174,19 @@ impl<'a> Setup<'a> {
         let position = light.position().context("a sun has no cube around it")?;
         let lights = planned::cube_faces(&light, options.filter, settings.map_size(), settings.border())?;
         let maps = lights.iter().map(|light| self.fit(view, light, settings, options)).collect::<Result<_>>()?;
-        Ok(Maps { fitted: FittedMaps { split: Split::cube(position), lights, maps }, options: *options })
+        Ok(Maps { fitted: self.of(Split::cube(position), lights, maps)?, options: *options })
+    }
+
+    fn of(&self, split: Split, lights: Vec<Light>, maps: Vec<Option<FittedMap>>) -> Result<FittedMaps> {
+        FittedMaps::of(self.stage, split, lights, maps, Cutting::None)
     }
 
     /// A map with what culling against H leaves of the casters; `None` where none is needed.
     fn fit(&self, view: &View, light: &Light, settings: &Settings, options: &Options) -> Result<Option<FittedMap>> {
         let scene = Scene::new(&self.boxes, &self.boxes)?;
         let focus = Focus::new(view, light, &scene);
-        let map: Map = match focus.fit(settings) {
-            Outcome::Map(map) => map,
+        let map = match focus.fit(settings) {
+            Outcome::Map(map) => Layout::Frustum(map),
             Outcome::Empty(_) => return Ok(None),
             Outcome::Surrounded(_) => bail!("no single frustum serves {}", self.light.spec),
         };

@@ -11,6 +11,7 @@ use super::Gpu;
 use crate::scene::{Disc, Mesh};
 
 /// The triangles of a mesh in f32, three vertices each, so that the number of a vertex tells its triangle.
+#[derive(Debug)]
 pub struct Geometry {
     pub(super) buffer: wgpu::Buffer,
     /// The unit normal of each triangle's front, four floats each.

@@ -12,6 +12,8 @@ pub(super) struct PipelineKind<'a> {
     pub(super) shader: &'a str,
     pub(super) constants: &'a [(&'a str, f64)],
     pub(super) takes_geometry: bool,
+    /// Whether there is a fragment shader; without one depth alone comes of a pass.
+    pub(super) has_fragments: bool,
     pub(super) primitive: wgpu::PrimitiveState,
     pub(super) depth: Option<wgpu::DepthStencilState>,
     pub(super) targets: &'a [wgpu::TextureFormat],
@@ -40,8 +42,7 @@ impl PipelineKind<'_> {
             primitive: self.primitive,
             depth_stencil: self.depth.clone(),
             multisample: wgpu::MultisampleState::default(),
-            // A depth buffer alone needs a fragment stage only to leave fragments out.
-            fragment: self.shader.contains("@fragment").then_some(wgpu::FragmentState {
+            fragment: self.has_fragments.then_some(wgpu::FragmentState {
                 module,
                 entry_point: Some("fragment"),
                 compilation_options,

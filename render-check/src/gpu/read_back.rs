@@ -53,6 +53,7 @@ pub(super) fn depths(gpu: &Gpu, view: &wgpu::TextureView, size: u32) -> Result<V
         shader: shaders::COPY_DEPTH,
         constants: &[],
         takes_geometry: false,
+        has_fragments: true,
         primitive: wgpu::PrimitiveState::default(),
         depth: None,
         targets: &[format],

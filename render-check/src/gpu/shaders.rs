@@ -14,9 +14,14 @@ pub(super) fn second_layer() -> String {
     [wgsl::MAP, wgsl::FILTERS, wgsl::BETWEEN_LAYERS, SHADOW_MAP, own].concat()
 }
 
+/// Casters into a paraboloid map, by the crate's shader functions.
+pub(super) fn paraboloid_map() -> String {
+    [wgsl::PARABOLOID, include_str!("shaders/paraboloid_map.wgsl")].concat()
+}
+
 /// The discs of points into a shadow map, as the crate's shader function places them.
 pub(super) fn splats() -> String {
-    [shadowfit::wgsl::SPLAT, include_str!("shaders/splats.wgsl")].concat()
+    [wgsl::SPLAT, include_str!("shaders/splats.wgsl")].concat()
 }
 
 /// A depth buffer as plain numbers.
@@ -26,39 +31,47 @@ pub(super) const COPY_DEPTH: &str =
 /// The ends of what is in a depth buffer.
 pub(super) const DEPTH_ENDS: &str = include_str!("shaders/depth_ends.wgsl");
 
+/// How maps lay out the world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum LayoutText {
+    /// By a matrix.
+    Frustum,
+    /// In half spaces. There are no virtual samples for it.
+    Paraboloid,
+}
+
 /// The shadow test with each lookup.
-pub(super) fn nearest() -> String {
-    shadow_test(include_str!("shaders/nearest.wgsl"))
+pub(super) fn nearest(layout: LayoutText) -> String {
+    shadow_test(layout, include_str!("shaders/nearest.wgsl"))
 }
 
 /// See [`nearest`].
-pub(super) fn hardware() -> String {
-    shadow_test(include_str!("shaders/hardware.wgsl"))
+pub(super) fn hardware(layout: LayoutText) -> String {
+    shadow_test(layout, include_str!("shaders/hardware.wgsl"))
 }
 
 /// See [`nearest`].
-pub(super) fn percentage_closer() -> String {
-    shadow_test(include_str!("shaders/percentage_closer.wgsl"))
+pub(super) fn percentage_closer(layout: LayoutText) -> String {
+    shadow_test(layout, include_str!("shaders/percentage_closer.wgsl"))
 }
 
 /// See [`nearest`].
 pub(super) fn virtual_samples() -> String {
-    shadow_test(include_str!("shaders/virtual_samples.wgsl"))
+    shadow_test(LayoutText::Frustum, include_str!("shaders/virtual_samples.wgsl"))
 }
 
 /// See [`nearest`].
 pub(super) fn between_layers() -> String {
-    shadow_test(include_str!("shaders/between_layers.wgsl"))
+    shadow_test(LayoutText::Frustum, include_str!("shaders/between_layers.wgsl"))
 }
 
-fn shadow_test(lookup: &str) -> String {
-    let own = [
-        include_str!("shaders/full_screen.wgsl"),
-        include_str!("shaders/shadow_test.wgsl"),
-        include_str!("shaders/frustum.wgsl"),
-        lookup,
-    ];
-    let functions = [wgsl::PROJECT, wgsl::MAP_ARRAY, wgsl::FILTERS, wgsl::VIRTUAL_SAMPLES, wgsl::BETWEEN_LAYERS];
+fn shadow_test(layout: LayoutText, lookup: &str) -> String {
+    let (functions, layout) = match layout {
+        LayoutText::Frustum => (wgsl::PROJECT, include_str!("shaders/frustum.wgsl")),
+        LayoutText::Paraboloid => (wgsl::PARABOLOID, include_str!("shaders/paraboloid.wgsl")),
+    };
+    let own = [include_str!("shaders/full_screen.wgsl"), include_str!("shaders/shadow_test.wgsl"), layout, lookup];
+    let functions = [functions, wgsl::MAP_ARRAY, wgsl::FILTERS, wgsl::VIRTUAL_SAMPLES, wgsl::BETWEEN_LAYERS];
     functions.into_iter().chain(own).collect()
 }
 
@@ -78,9 +91,13 @@ mod tests {
             ("splats", &splats()),
             ("copy depth", COPY_DEPTH),
             ("depth ends", DEPTH_ENDS),
-            ("nearest", &nearest()),
-            ("hardware", &hardware()),
-            ("percentage closer", &percentage_closer()),
+            ("paraboloid map", &paraboloid_map()),
+            ("nearest", &nearest(LayoutText::Frustum)),
+            ("hardware", &hardware(LayoutText::Frustum)),
+            ("percentage closer", &percentage_closer(LayoutText::Frustum)),
+            ("nearest in paraboloids", &nearest(LayoutText::Paraboloid)),
+            ("hardware in paraboloids", &hardware(LayoutText::Paraboloid)),
+            ("percentage closer in paraboloids", &percentage_closer(LayoutText::Paraboloid)),
             ("virtual samples", &virtual_samples()),
             ("between layers", &between_layers()),
         ] {

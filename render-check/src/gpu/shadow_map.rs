@@ -5,11 +5,12 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, bail, ensure};
 use shadowfit::glam::{Mat4, Vec3, Vec4};
-use shadowfit::{ClipSpace, Culling, DepthFormat, DepthRange, Map, Offset, YAxis};
+use shadowfit::{ClipSpace, Culling, DepthBias, DepthFormat, DepthRange, Offset, Paraboloid, YAxis};
 
 use super::pass::{Pass, PipelineKind, depth_state};
 use super::splats::{Points, SplatPass};
 use super::{Geometry, Gpu, read_back, shaders};
+use crate::layout::Layout;
 use crate::split::Split;
 use crate::trace::Faces;
 
@@ -52,7 +53,7 @@ fn format_name<S: serde::Serializer>(format: &DepthFormat, serializer: S) -> Res
 pub struct MapDraw<'a> {
     /// Its matrix takes positions relative to what its settings say; the geometry must have been uploaded relative to
     /// the same.
-    pub map: &'a Map,
+    pub map: Layout,
     /// The ranges of the geometry's triangles that belong in it.
     pub casters: &'a [Range<u32>],
     /// How they are drawn.
@@ -68,7 +69,7 @@ pub struct ShadowMaps {
     /// What lies behind the first surfaces, of a light whose maps are tested between layers.
     pub(super) behind: Option<LayerArray>,
     /// The map in each layer, and what receivers are to be tested with.
-    pub(super) maps: Vec<(Map, Offset)>,
+    pub(super) maps: Vec<(Layout, Offset)>,
     pub(super) format: DepthFormat,
     /// The axis of each part of the light and, in w, its layer; −1 for a part without a map.
     pub(super) parts: Vec<Vec4>,
@@ -83,17 +84,22 @@ impl ShadowMaps {
     ///
     /// # Errors
     ///
-    /// When there is nothing to draw, when the maps are not alike in size, format and clip space, as layers of a texture
-    /// are, or when the card refuses, as it does maps larger than it can hold.
+    /// When there is nothing to draw, when the maps are not alike in kind, size, format and clip space, as layers of a
+    /// texture are, when points are to be splats in a paraboloid, or when the card refuses, as it does maps larger than it can hold.
     pub fn draw(gpu: &Gpu, geometry: &Geometry, split: &Split, maps: &[Option<MapDraw<'_>>]) -> Result<Self> {
         ensure!(split.parts() == maps.len(), "a light in {} parts has {} maps", split.parts(), maps.len());
         let drawn: Vec<&MapDraw<'_>> = maps.iter().flatten().collect();
         let first = drawn.first().context("none of the parts of the light needs a map")?;
-        let has_second = |draw: &MapDraw<'_>| draw.pass.faces == Faces::Layers;
         let of = |draw: &MapDraw<'_>| {
-            (draw.map.settings().map_size(), draw.pass.format, draw.map.settings().clip(), has_second(draw))
+            let is_frustum = matches!(draw.map, Layout::Frustum(_));
+            let has_second = draw.pass.faces == Faces::Layers;
+            let settings = draw.map.settings();
+            (is_frustum, settings.map_size(), draw.pass.format, settings.clip(), has_second)
         };
-        ensure!(drawn.iter().all(|draw| of(draw) == of(first)), "the maps of a light differ in size or format");
+        ensure!(
+            drawn.iter().all(|draw| of(draw) == of(first)),
+            "the maps of a light differ in kind, size or format"
+        );
         let (size, largest) = (first.map.settings().map_size(), gpu.largest_texture());
         ensure!(size <= largest, "{} holds maps of {largest} texels a side, not of {size}", gpu.name());
         gpu.guarded("the shadow map", || {
@@ -104,7 +110,7 @@ impl ShadowMaps {
                 DepthFormat::Float32 => wgpu::TextureFormat::Depth32Float,
             };
             let array = || LayerArray::new(gpu, size, drawn.len() as u32, format);
-            let (nearest, behind) = (array(), has_second(first).then(array));
+            let (nearest, behind) = (array(), (first.pass.faces == Faces::Layers).then(array));
             let mut time = Some(Duration::ZERO);
             for (index, draw) in drawn.iter().enumerate() {
                 let target = &nearest.one_by_one[index];
@@ -123,7 +129,7 @@ impl ShadowMaps {
             });
             let receiver = |draw: &MapDraw<'_>| {
                 let offset = Offset::depth(draw.pass.receiver).context("receivers cannot be moved so")?;
-                Ok((*draw.map, offset))
+                Ok((draw.map, offset))
             };
             Ok(Self {
                 view: nearest.all,
@@ -145,7 +151,8 @@ impl ShadowMaps {
     ///
     /// When the card refuses.
     pub fn depths(&self, gpu: &Gpu) -> Result<Vec<Vec<f32>>> {
-        let depths = |(layer, (map, _)): (_, &(Map, _))| read_back::depths(gpu, layer, map.settings().map_size());
+        let depths =
+            |(layer, (map, _)): (_, &(Layout, _))| read_back::depths(gpu, layer, map.settings().map_size());
         gpu.guarded("the shadow map's depths", || self.layers.iter().zip(&self.maps).map(depths).collect())
     }
 }
@@ -189,19 +196,29 @@ fn draw_layer(
         true => (wgpu::CompareFunction::Greater, -1),
         false => (wgpu::CompareFunction::Less, 1),
     };
-    let bias = wgpu::DepthBiasState {
-        constant: sign * draw.pass.bias.constant,
-        slope_scale: sign as f32 * draw.pass.bias.slope,
-        clamp: 0.0,
+    let raster_from_clip = raster_from_clip(clip);
+    let (mut shader, light, bias): (String, _, _) = match &draw.map {
+        Layout::Frustum(map) => {
+            let bias = wgpu::DepthBiasState {
+                constant: sign * draw.pass.bias.constant,
+                slope_scale: sign as f32 * draw.pass.bias.slope,
+                clamp: 0.0,
+            };
+            (shaders::SHADOW_MAP.into(), gpu.uniforms(&[map.matrix(), raster_from_clip]), bias)
+        }
+        Layout::Paraboloid(map) => {
+            let light = gpu.uniforms(&[map.matrix(), raster_from_clip, in_fragments(map, &draw.pass)]);
+            (shaders::paraboloid_map(), light, wgpu::DepthBiasState::default())
+        }
     };
     let depth = depth_state(format, compare, bias);
-    let light = gpu.uniforms(&[draw.map.matrix(), raster_from_clip(clip)]);
     let mut resources = vec![light.as_entire_binding()];
-    let (mut shader, mut constants) = (shaders::SHADOW_MAP.to_owned(), Vec::new());
+    let mut constants = Vec::new();
     if let Some(first_layer) = first_layer {
+        let Layout::Frustum(map) = &draw.map else { bail!("paraboloids have no second layer") };
         ensure!(draw.pass.points == Points::Discs, "between layers points are drawn as discs");
         shader = shaders::second_layer();
-        let gap = 2.0 * draw.map.comparison_tolerance(draw.pass.format);
+        let gap = 2.0 * map.comparison_tolerance(draw.pass.format);
         constants.extend([("gap", gap), ("reversed", f64::from(u8::from(reversed)))]);
         resources.push(wgpu::BindingResource::TextureView(first_layer));
     }
@@ -217,6 +234,7 @@ fn draw_layer(
             shader: &shader,
             constants: &constants,
             takes_geometry: true,
+            has_fragments: matches!(draw.map, Layout::Paraboloid(_)) || first_layer.is_some(),
             // The meshes' fronts are counter-clockwise, and the crate's maps mirror nothing.
             primitive: wgpu::PrimitiveState { front_face: wgpu::FrontFace::Ccw, cull_mode, ..Default::default() },
             depth: Some(depth.clone()),
@@ -235,11 +253,27 @@ fn draw_layer(
         add(pass.run(gpu)?);
     }
     if !discs.is_empty() {
+        ensure!(
+            matches!(draw.map, Layout::Frustum(_)),
+            "splats are drawn into frusta only: draw the points as discs"
+        );
         let size = draw.map.settings().map_size();
         let splats = SplatPass { points: draw.pass.points, size, light: &light, view: layer, depth };
         add(splats.run(gpu, geometry, &discs)?);
     }
     Ok(time)
+}
+
+/// What the fragments of a paraboloid need besides its matrix: texture scale, clip scale and bias, and no more numbers.
+fn in_fragments(map: &Paraboloid, pass: &MapPass) -> Mat4 {
+    let bias = DepthBias {
+        format: pass.format,
+        constant: pass.bias.constant,
+        slope: pass.bias.slope,
+        receiver: pass.receiver,
+    };
+    let (scale, bias) = (map.clip_scale(), bias.in_shader());
+    Mat4::from_cols(map.texture_scale(), scale.extend(bias.x).extend(bias.y), Vec4::ZERO, Vec4::ZERO)
 }
 
 /// The vertices to draw with each kind of culling; at least one batch, though it may be empty, so that the map is cleared.

@@ -6,10 +6,12 @@ use std::time::Duration;
 
 use anyhow::{Result, bail};
 use shadowfit::glam::{Mat4, Vec3};
-use shadowfit::{ClipSpace, Map, Offset, TextureOrigin, YAxis};
+use shadowfit::{ClipSpace, Offset, TextureOrigin, YAxis};
 
 use super::pass::{FULL_SCREEN, Pass, PipelineKind};
-use super::{Gpu, ShadowMaps, Surfaces, read_back, shaders};
+use super::shaders::{self, LayoutText};
+use super::{Gpu, ShadowMaps, Surfaces, read_back};
+use crate::layout::Layout;
 
 /// How a shadow map is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -93,7 +95,8 @@ pub struct Shadows {
 ///
 /// # Errors
 ///
-/// When the card refuses, or when maps to be tested between layers are read with a filter that cannot.
+/// When the card refuses, when virtual samples are asked for of paraboloids, or when maps to be tested between layers are
+/// read with a filter that cannot.
 pub fn shadow_test(gpu: &Gpu, surfaces: &Surfaces, shadow_maps: &ShadowMaps, filter: Filter) -> Result<Shadows> {
     gpu.guarded("the shadow test", || shadow_test_unguarded(gpu, surfaces, shadow_maps, filter))
 }
@@ -106,11 +109,16 @@ fn shadow_test_unguarded(
 ) -> Result<Shadows> {
     // The layers of a texture are alike in this.
     let reversed = shadow_maps.maps.iter().any(|(map, _)| map.settings().clip().depth.is_reversed());
+    let layout = match shadow_maps.maps.first() {
+        Some((Layout::Paraboloid(_), _)) => LayoutText::Paraboloid,
+        _ => LayoutText::Frustum,
+    };
     let behind = shadow_maps.behind.as_ref().map(|behind| &behind.all);
     let (shader, taps) = match (filter, behind) {
-        (Filter::Nearest, None) => (shaders::nearest(), None),
-        (Filter::Hardware, None) => (shaders::hardware(), None),
-        (Filter::PercentageCloser(taps), None) => (shaders::percentage_closer(), Some(taps)),
+        (Filter::Nearest, None) => (shaders::nearest(layout), None),
+        (Filter::Hardware, None) => (shaders::hardware(layout), None),
+        (Filter::PercentageCloser(taps), None) => (shaders::percentage_closer(layout), Some(taps)),
+        (Filter::Virtual(_), None) if layout == LayoutText::Paraboloid => bail!("paraboloids have no virtual samples"),
         (Filter::Virtual(taps), None) => (shaders::virtual_samples(), Some(taps)),
         (Filter::Nearest, Some(_)) => (shaders::between_layers(), Some(1)),
         (Filter::PercentageCloser(taps), Some(_)) => (shaders::between_layers(), Some(taps)),
@@ -130,6 +138,7 @@ fn shadow_test_unguarded(
         shader: &shader,
         constants: &constants,
         takes_geometry: false,
+        has_fragments: true,
         primitive: wgpu::PrimitiveState::default(),
         depth: None,
         targets: &[format],
@@ -138,12 +147,7 @@ fn shadow_test_unguarded(
 
     let split = [shadow_maps.light.extend(0.0)].into_iter().chain(shadow_maps.parts.iter().copied());
     let split = gpu.storage(split.flat_map(|row| row.to_array()));
-    let layer = |(map, receiver): &(Map, Offset)| {
-        let matrices = [map.texture_matrix_with(receiver), sampled_from_texture(map.settings().clip())];
-        let tolerance = map.comparison_tolerance(shadow_maps.format) as f32;
-        matrices.into_iter().flat_map(|matrix| matrix.to_cols_array()).chain([tolerance, 0.0, 0.0, 0.0])
-    };
-    let layers = gpu.storage(shadow_maps.maps.iter().flat_map(layer));
+    let layers = gpu.storage(shadow_maps.maps.iter().flat_map(|(map, receiver)| layer(map, receiver, shadow_maps)));
     let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
         mag_filter: wgpu::FilterMode::Linear,
         min_filter: wgpu::FilterMode::Linear,
@@ -179,6 +183,24 @@ fn shadow_test_unguarded(
     let texels: Vec<[f32; 2]> = read_back::texels(gpu, &lit)?;
     let (lit, used_plane) = texels.into_iter().map(|[lit, used_plane]| (lit, used_plane > 0.0)).unzip();
     Ok(Shadows { lit, used_plane, time })
+}
+
+/// What the shader knows of a layer.
+fn layer(map: &Layout, receiver: &Offset, shadow_maps: &ShadowMaps) -> Vec<f32> {
+    let sampled = sampled_from_texture(map.settings().clip());
+    match map {
+        Layout::Frustum(map) => {
+            let matrices = [map.texture_matrix_with(receiver), sampled];
+            let tolerance = map.comparison_tolerance(shadow_maps.format) as f32;
+            matrices.iter().flat_map(Mat4::to_cols_array).chain([tolerance, 0.0, 0.0, 0.0]).collect()
+        }
+        Layout::Paraboloid(map) => {
+            let mut scale = map.texture_scale();
+            // The middle of the disc is the middle of the map, whichever row comes first.
+            scale.y *= sampled.y_axis.y;
+            map.receiver_matrix(receiver).to_cols_array().into_iter().chain(scale.to_array()).collect()
+        }
+    }
 }
 
 /// From an API that counts texture rows from the bottom to wgpu, which counts them from the top: there the same row of

@@ -47,6 +47,7 @@ impl Surfaces {
             shader: shaders::SURFACES,
             constants: &[],
             takes_geometry: true,
+            has_fragments: true,
             primitive: wgpu::PrimitiveState::default(),
             depth: Some(depth_state(depth_format, wgpu::CompareFunction::Greater, Default::default())),
             targets: &formats,

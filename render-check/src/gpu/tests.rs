@@ -1,9 +1,14 @@
 //! What the card draws, against rays.
 
-use shadowfit::glam::DVec3;
-use shadowfit::{ClipSpace, DepthFormat, Light, Map, Origin, Rule, Scene, Settings, TangentPlane, View, fit};
+use shadowfit::glam::{DVec2, DVec3};
+use shadowfit::{
+    ClipSpace, DepthFormat, Focus, Light, Map, Origin, Paraboloid, Paraboloids, Rule, Scene, Settings,
+    TangentPlane, View, fit,
+};
 
 use super::*;
+use crate::cut::{Cut, Cutting};
+use crate::layout::Layout;
 use crate::picture::{DepthMap, Lens};
 use crate::scene::{self, Mesh};
 use crate::split::Split;
@@ -36,7 +41,7 @@ fn draw_all(stage: &Stage, format: DepthFormat, bias: Bias) -> (Geometry, Shadow
     let geometry = Geometry::upload(&stage.gpu, &stage.mesh, stage.view.eye()).expect("it fits");
     let pass = MapPass { format, faces: Faces::All, bias, receiver: 0.0, points: Points::Discs };
     let all = 0..stage.mesh.triangles.len() as u32;
-    let draw = MapDraw { map: &stage.map, casters: &[all], pass };
+    let draw = MapDraw { map: Layout::Frustum(stage.map), casters: &[all], pass };
     let shadow_maps = ShadowMaps::draw(&stage.gpu, &geometry, &Split::whole(), &[Some(draw)]).expect("drawn");
     (geometry, shadow_maps)
 }
@@ -136,8 +141,10 @@ fn each_part_of_a_light_has_its_layer() {
     let all = [all];
     let pass =
         MapPass { format: DepthFormat::Float32, faces: Faces::All, bias, receiver: 0.0, points: Points::Discs };
-    let (full, empty) =
-        (MapDraw { map: &stage.map, casters: &all, pass }, MapDraw { map: &stage.map, casters: &[], pass });
+    let (full, empty) = (
+        MapDraw { map: Layout::Frustum(stage.map), casters: &all, pass },
+        MapDraw { map: Layout::Frustum(stage.map), casters: &[], pass },
+    );
     let draw = |maps: &[Option<MapDraw>]| ShadowMaps::draw(&stage.gpu, &geometry, &split, maps);
     assert_eq!(lit(&draw(&[Some(full); 6]).expect("drawn")), one);
     // A part without a map is lit, as is one whose map holds nothing; the layers of the others close up.
@@ -205,7 +212,7 @@ fn the_second_layer_is_the_next_surface_that_rays_meet() {
             let (bias, points) = (Bias::NONE, Points::Discs);
             let pass = MapPass { format, faces: Faces::Layers, bias, receiver: 0.0, points };
             let all = 0..stage.mesh.triangles.len() as u32;
-            let draw = MapDraw { map: &stage.map, casters: std::slice::from_ref(&all), pass };
+            let draw = MapDraw { map: Layout::Frustum(stage.map), casters: std::slice::from_ref(&all), pass };
             let maps = ShadowMaps::draw(&stage.gpu, &geometry, &Split::whole(), &[Some(draw)]).expect("drawn");
             let behind = &maps.behind.as_ref().expect("asked for").one_by_one[0];
             let behind = read_back::depths(&stage.gpu, behind, MAP).expect("readable");
@@ -243,7 +250,7 @@ fn what_cannot_be_tested_between_layers_is_refused() {
     let maps = |points| {
         let format = DepthFormat::Float32;
         let pass = MapPass { format, faces: Faces::Layers, bias: Bias::NONE, receiver: 0.0, points };
-        let draw = MapDraw { map: &stage.map, casters: std::slice::from_ref(&all), pass };
+        let draw = MapDraw { map: Layout::Frustum(stage.map), casters: std::slice::from_ref(&all), pass };
         ShadowMaps::draw(&stage.gpu, &geometry, &Split::whole(), &[Some(draw)])
     };
     let splats = maps(Points::Splats).err().expect("refused");
@@ -286,4 +293,97 @@ fn a_step_of_bias_is_what_it_is_said_to_be() {
             }
         }
     }
+}
+
+/// Both hemispheres of a lamp in the midst of the chess board.
+fn hemispheres(stage: &Stage, clip: ClipSpace) -> [Paraboloid; 2] {
+    let light = Light::point(LAMP, 0.02, f64::INFINITY).expect("sound");
+    let (min, max) = stage.mesh.bounds();
+    let scene = Scene::from_box(min, max).expect("sound");
+    let settings = Settings::new(MAP, IMAGE[1]).and_then(|settings| settings.with_border(2)).expect("sound");
+    let settings = settings.with_origin(Origin::Eye).with_clip(clip);
+    match Focus::new(&stage.view, &light, &scene).paraboloids(&settings) {
+        Paraboloids::Two(maps) => maps,
+        other => panic!("{other:?}"),
+    }
+}
+
+const LAMP: DVec3 = DVec3::new(0.0, 1.3, -4.0);
+
+/// Both maps of the lamp, its casters cut as finely as they must be, without a bias; and the mesh.
+fn draw_hemispheres(stage: &Stage, maps: &[Paraboloid; 2], format: DepthFormat) -> ShadowMaps {
+    let drawn = vec![true; stage.mesh.objects.len()];
+    let cut = Cut::new(&stage.gpu, stage.view.eye(), &stage.mesh, &drawn, &maps[0], Cutting::Bound);
+    let cut = cut.expect("not too many").expect("cut");
+    let all = 0..cut.mesh.triangles.len() as u32;
+    let all = [all];
+    let pass = MapPass { format, faces: Faces::All, bias: Bias::NONE, receiver: 0.0, points: Points::Discs };
+    let draws = maps.map(|map| Some(MapDraw { map: Layout::Paraboloid(map), casters: &all, pass }));
+    let split = Split::halves(LAMP, maps[0].axis());
+    ShadowMaps::draw(&stage.gpu, &cut.geometry, &split, &draws).expect("drawn")
+}
+
+#[test]
+fn paraboloids_hold_the_distances_that_rays_find_in_every_convention() {
+    for clip in [ClipSpace::WGPU, ClipSpace::WGPU.reversed(), ClipSpace::VULKAN, ClipSpace::OPENGL.reversed()] {
+        let stage = stage(ClipSpace::WGPU);
+        let tracer = Tracer::new(&stage.mesh).expect("it has triangles");
+        let maps = hemispheres(&stage, clip);
+        for format in [DepthFormat::Unorm24, DepthFormat::Float32] {
+            let shadow_maps = draw_hemispheres(&stage, &maps, format);
+            for (map, stored) in maps.iter().zip(shadow_maps.depths(&stage.gpu).expect("readable")) {
+                let (mut inside, mut close, mut met) = (0, 0, 0);
+                for (texel, &stored) in stored.iter().enumerate() {
+                    let at = |i: usize| (i as f64 + 0.5 - 64.0) / 62.0;
+                    let place = DVec2::new(at(texel % MAP as usize), -at(texel / MAP as usize));
+                    if place.length() > 1.0 {
+                        continue;
+                    }
+                    let direction = (map.unproject(place.extend(1.0)) - LAMP).normalize();
+                    let ray = Ray { origin: LAMP + 0.02 * direction, direction, length: f64::INFINITY };
+                    let hit = tracer.first_hit(&ray);
+                    let depth = hit.and_then(|hit| map.project(hit.point)).map_or(1.0, |place| place.z.min(1.0));
+                    let stored = if clip.depth.is_reversed() { 1.0 - stored } else { stored };
+                    inside += 1;
+                    met += usize::from(depth < 1.0);
+                    close += usize::from((f64::from(stored) - depth).abs() < 1e-5);
+                }
+                // Texels at edges, drawn half a texel off at most, may go either way.
+                assert!(close * 100 >= inside * 97, "{close} of {inside}, {clip:?}, {format:?}");
+                // The board is below the lamp, and a few pieces reach above it.
+                assert_eq!(met * 2 > inside, map.axis().y < 0.0, "{met} of {inside}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_paraboloids_cannot_do_is_an_error() {
+    let stage = stage(ClipSpace::WGPU);
+    let maps = hemispheres(&stage, ClipSpace::WGPU);
+    let shadow_maps = draw_hemispheres(&stage, &maps, DepthFormat::Float32);
+    let geometry = Geometry::upload(&stage.gpu, &stage.mesh, stage.view.eye()).expect("it fits");
+    let surfaces = Surfaces::draw(&stage.gpu, &geometry, &stage.view, IMAGE).expect("drawn");
+    let refused = shadow_test(&stage.gpu, &surfaces, &shadow_maps, Filter::Virtual(2)).err().expect("refused");
+    assert!(format!("{refused:#}").contains("virtual samples"), "{refused:#}");
+
+    let cloud = scene::load("cloud".as_ref()).expect("built in").mesh;
+    let geometry = Geometry::upload(&stage.gpu, &cloud, stage.view.eye()).expect("it fits");
+    let pass = MapPass {
+        format: DepthFormat::Float32,
+        faces: Faces::All,
+        bias: Bias::NONE,
+        receiver: 0.0,
+        points: Points::Splats,
+    };
+    let all = 0..cloud.triangles.len() as u32;
+    let all = [all];
+    let draws = maps.map(|map| Some(MapDraw { map: Layout::Paraboloid(map), casters: &all, pass }));
+    let split = Split::halves(LAMP, maps[0].axis());
+    let refused = ShadowMaps::draw(&stage.gpu, &geometry, &split, &draws).err().expect("refused");
+    assert!(format!("{refused:#}").contains("as discs"), "{refused:#}");
+    let frustum = MapDraw { map: Layout::Frustum(stage.map), casters: &all, pass };
+    let mixed = [draws[0], Some(frustum)];
+    let refused = ShadowMaps::draw(&stage.gpu, &geometry, &split, &mixed).err().expect("refused");
+    assert!(format!("{refused:#}").contains("differ in kind"), "{refused:#}");
 }

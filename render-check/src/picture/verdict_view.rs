@@ -3,13 +3,13 @@
 //! A sample is a pixel here, so that a picture shows just what was compared.
 
 use image::{Rgb, RgbImage};
-use shadowfit::Map;
 use shadowfit::glam::DVec3;
 
 use super::canvas::{Colour, encode, mix};
 use super::map_view::DepthMap;
 use super::shade::{Lighting, background};
 use super::text;
+use crate::layout::Layout;
 use crate::scene::Mesh;
 use crate::trace::{Hit, Ray};
 use crate::verdict::{Mark, Truth, TruthImage};
@@ -119,7 +119,7 @@ fn ramp(aliasing: f64) -> Colour {
 ///
 /// `depths` are those of [`crate::verdict::DrawnMap`]; texels beyond their end show as if nothing was drawn there.
 #[must_use]
-pub fn stored_map(map: &Map, depths: &[f32]) -> RgbImage {
+pub fn stored_map(map: &Layout, depths: &[f32]) -> RgbImage {
     let (size, reversed) = (map.settings().map_size(), map.settings().clip().depth.is_reversed());
     let mut depths: Vec<f32> = depths.iter().map(|&d| if reversed { 1.0 - d } else { d }).collect();
     depths.resize(size as usize * size as usize, 1.0);
@@ -225,7 +225,7 @@ mod tests {
         let image = |clip: ClipSpace| {
             let map = fake::fitted(&SUN, &fake::settings().with_clip(clip));
             let drawn = Fake { faces: Faces::All, ..Fake::default() }.draw(&map, &tracer);
-            stored_map(&map, &drawn)
+            stored_map(&Layout::Frustum(map), &drawn)
         };
         let [forward, reversed] = [ClipSpace::WGPU, ClipSpace::WGPU.reversed()].map(image);
         let differs = |(a, b): (&Rgb<u8>, &Rgb<u8>)| a.0[0].abs_diff(b.0[0]) > 1;

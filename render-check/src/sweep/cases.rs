@@ -56,12 +56,13 @@ impl Shot {
 }
 
 /// All groups.
-pub const GROUPS: [Group; 17] = [
+pub const GROUPS: [Group; 18] = [
     Group { name: "classes-of-suns", shots: || Ok(vec![chess_board()?.shot("arc", suns_across)?]) },
     Group { name: "classes-of-lamps", shots: || Ok(vec![chess_board()?.shot("line", lamps_through_the_plane)?]) },
     Group { name: "through-the-back", shots: || Ok(vec![chess_board()?.shot("viewer's back", through_the_back)?]) },
     Group { name: "behind-the-eye", shots: || Ok(vec![Stand::built_in("behind")?.own_lights("figure")?]) },
     Group { name: "lights-inside", shots: lights_inside },
+    Group { name: "paraboloids", shots: paraboloids },
     Group { name: "flat", shots: flat },
     Group { name: "far-planes", shots: far_planes },
     Group { name: "scales", shots: scales },
@@ -144,6 +145,39 @@ fn lights_inside() -> Result<Vec<Shot>> {
         options.extend(Technique::CUBES.map(|technique| Options { filter, ..Options::new(technique, MAP_SIZE) }));
     }
     Ok([own, across].map(|shot| shot.with_options(options.clone())).into())
+}
+
+/// Lamps with one paraboloid and with two, cut as they must be; all that reads a map reads across the seam between two.
+fn paraboloids() -> Result<Vec<Shot>> {
+    let mut options = Vec::new();
+    for filter in [Filter::Nearest, Filter::Hardware, Filter::PercentageCloser(5)] {
+        let paraboloid = |map_size| Options { filter, ..Options::new(Technique::Paraboloid, map_size) };
+        options.extend([paraboloid(MAP_SIZE), paraboloid(2 * MAP_SIZE)]);
+    }
+    let plain = options[0];
+    options.extend([
+        Options { clip: ClipArg::VulkanReversed, format: DepthFormat::Float32, ..plain },
+        Options { clip: ClipArg::OpenglReversed, format: DepthFormat::Unorm16, ..plain },
+        Options { faces: Faces::Second, ..plain },
+    ]);
+    let lamp = |words: &str, position| (words.to_owned(), LightSpec::Point { position, range: f64::INFINITY });
+    let room = Stand::built_in("room")?.shot("room", |_| {
+        vec![
+            lamp("in its shade", DVec3::new(0.9, 2.3, -1.9)),
+            lamp("in view", DVec3::new(0.0, 1.5, -2.5)),
+            lamp("level with the table", DVec3::new(-1.2, 0.78, -1.3)),
+        ]
+    })?;
+    let board = chess_board()?.shot("chess board", |_| {
+        let aimed = LightSpec::Spot {
+            position: DVec3::new(0.0, 3.0, -4.0),
+            target: DVec3::new(0.0, 0.0, -4.2),
+            cone_degrees: 150.0,
+            range: f64::INFINITY,
+        };
+        vec![lamp("lamp in its midst", DVec3::new(0.5, 1.2, -4.0)), ("wide spot".to_owned(), aimed)]
+    })?;
+    Ok([room, board].map(|shot| shot.with_options(options.clone())).into())
 }
 
 /// A street with the near plane a step from the eye, where there is only air, and with it close before what is seen.

@@ -72,13 +72,14 @@ impl Comparison<'_> {
         let ray = self.truth.source().ray_to(self.tracer, point)?;
         let caster = self.tracer.first_hit_of(&ray, self.rendered.faces)?;
         let slopes = projection.slopes(caster.point, caster.face_normal)?;
-        let bias = map.bias.constant + map.bias.slope * slopes.max_element();
+        let depth = projection.place(caster.point)?.z;
+        let bias = map.bias.constant + projection.slope_bias(depth, slopes, map.bias.slope);
         let (_, caster_rounding) = projection.rounding(caster.point);
         let (_, receiver_rounding) = projection.rounding(point);
         let tolerance = SUBTEXEL * slopes.element_sum() + depth_step + caster_rounding;
         Some(Depths {
             triangle: caster.triangle,
-            caster: projection.place(caster.point)?.z + bias + tolerance,
+            caster: depth + bias + tolerance,
             receiver: projection.place(point)?.z - depth_step - receiver_rounding,
         })
     }

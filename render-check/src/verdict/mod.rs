@@ -11,6 +11,7 @@
 mod cluster;
 mod edge;
 mod frustum;
+mod hemisphere;
 mod missing;
 mod projection;
 mod report;
@@ -24,6 +25,7 @@ use shadowfit::glam::DVec3;
 
 pub use cluster::{Cluster, Fault};
 pub use frustum::Frustum;
+pub use hemisphere::Hemisphere;
 pub use projection::Projection;
 pub use report::{Aliasing, Counts, Mark, Verdict, share};
 pub use surface::Surface;

@@ -27,7 +27,13 @@ pub trait Projection: fmt::Debug + Sync {
     /// next and from one row to the next; never negative. `None` where the light sees the plane from its edge.
     fn slopes(&self, point: DVec3, normal: DVec3) -> Option<DVec2>;
 
-    /// How far the rounding of what the card computes in f32 can carry a point within the map: texels across, and depth.
+    /// What a bias by slope adds to the depth of a plane with these slopes, at most. A rasteriser multiplies the larger one.
+    fn slope_bias(&self, _depth: f64, slopes: DVec2, slope: f64) -> f64 {
+        slope * slopes.max_element()
+    }
+
+    /// How far a card can carry a point within the map, by the rounding of what it computes in f32 and by what it makes of
+    /// the map's shape: texels across, and depth.
     fn rounding(&self, point: DVec3) -> (f64, f64);
 
     /// How much larger a texel is than a pixel at a point, see [`shadowfit::Map::aliasing`]; infinite outside of the map.

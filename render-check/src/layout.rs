@@ -1,0 +1,59 @@
+//! The kinds of maps that the crate fits.
+
+use anyhow::{Context, Result};
+use shadowfit::glam::DVec3;
+use shadowfit::{DepthBias, DepthFormat, Map, Paraboloid, Settings};
+
+use crate::verdict::{self, Frustum, Projection};
+
+/// A fitted map: how it lays out the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "a light has six at most")]
+pub enum Layout {
+    /// A matrix.
+    Frustum(Map),
+    /// Half of everything around a light.
+    Paraboloid(Paraboloid),
+}
+
+impl Layout {
+    /// The settings that it was fitted with.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        match self {
+            Self::Frustum(map) => map.settings(),
+            Self::Paraboloid(map) => map.settings(),
+        }
+    }
+
+    /// How much larger a texel is than a pixel at a point, see [`Map::aliasing`]; `None` where the map has no place for it.
+    #[must_use]
+    pub fn aliasing(&self, point: DVec3) -> Option<f64> {
+        match self {
+            Self::Frustum(map) => map.aliasing(point),
+            Self::Paraboloid(map) => map.aliasing(point),
+        }
+    }
+
+    /// The bias with which no plane shadows itself, for a filter that reaches so many texels.
+    ///
+    /// # Errors
+    ///
+    /// When there is no such filter.
+    pub fn bias(&self, format: DepthFormat, reach: f64) -> Result<DepthBias> {
+        let bias = match self {
+            Self::Frustum(map) => map.bias(format, reach),
+            Self::Paraboloid(map) => map.bias(format, reach),
+        };
+        bias.context("there is no such filter")
+    }
+
+    /// The same for the verdict, of a map that was fitted to a view with its eye there.
+    #[must_use]
+    pub fn projection(&self, eye: DVec3) -> Box<dyn Projection> {
+        match self {
+            Self::Frustum(map) => Box::new(Frustum::new(map, eye)),
+            Self::Paraboloid(map) => Box::new(verdict::Hemisphere::new(map)),
+        }
+    }
+}
