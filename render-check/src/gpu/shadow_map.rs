@@ -39,6 +39,8 @@ pub struct MapPass {
     pub bias: Bias,
     /// What receivers are tested nearer to the light by, where the map's depth range is 1.
     pub receiver: f64,
+    /// And as a part, see [`Offset::relative`].
+    pub relative: f64,
     /// What is drawn for points. Splats and texels have no sides.
     pub points: Points,
 }
@@ -121,7 +123,8 @@ impl ShadowMaps {
                 axis.as_vec3().extend(if map.is_some() { layer } else { -1.0 })
             });
             let receiver = |draw: &MapDraw<'_>| {
-                let offset = Offset::depth(draw.pass.receiver).context("receivers cannot be moved so")?;
+                let offset = Offset::relative(draw.pass.relative).and_then(|it| it.and_depth(draw.pass.receiver));
+                let offset = offset.context("receivers cannot be moved so")?;
                 Ok((*draw.map, offset))
             };
             Ok(Self {

@@ -34,7 +34,7 @@ fn stage(clip: ClipSpace) -> Stage {
 
 fn draw_all(stage: &Stage, format: DepthFormat, bias: Bias) -> (Geometry, ShadowMaps) {
     let geometry = Geometry::upload(&stage.gpu, &stage.mesh, stage.view.eye()).expect("it fits");
-    let pass = MapPass { format, faces: Faces::All, bias, receiver: 0.0, points: Points::Discs };
+    let pass = MapPass { format, faces: Faces::All, bias, receiver: 0.0, relative: 0.0, points: Points::Discs };
     let all = 0..stage.mesh.triangles.len() as u32;
     let draw = MapDraw { map: &stage.map, casters: &[all], pass };
     let shadow_maps = ShadowMaps::draw(&stage.gpu, &geometry, &Split::whole(), &[Some(draw)]).expect("drawn");
@@ -134,8 +134,14 @@ fn each_part_of_a_light_has_its_layer() {
     let split = Split::cube(DVec3::new(0.0, 0.5, -4.0));
     let (all, bias) = (0..stage.mesh.triangles.len() as u32, Bias { constant: 4, slope: 2.0 });
     let all = [all];
-    let pass =
-        MapPass { format: DepthFormat::Float32, faces: Faces::All, bias, receiver: 0.0, points: Points::Discs };
+    let pass = MapPass {
+        format: DepthFormat::Float32,
+        faces: Faces::All,
+        bias,
+        receiver: 0.0,
+        relative: 0.0,
+        points: Points::Discs,
+    };
     let (full, empty) =
         (MapDraw { map: &stage.map, casters: &all, pass }, MapDraw { map: &stage.map, casters: &[], pass });
     let draw = |maps: &[Option<MapDraw>]| ShadowMaps::draw(&stage.gpu, &geometry, &split, maps);
