@@ -4,6 +4,7 @@ use crate::error::{InputError, Problem, check};
 use crate::map::Map;
 use crate::offset::Offset;
 use crate::quality::DepthFormat;
+use crate::rounding::MapNoise;
 use crate::settings::Settings;
 use glam::DVec3;
 
@@ -47,28 +48,43 @@ use glam::DVec3;
 /// with gradient (p, q). A filter compares the depth of a receiver at R with what is stored for the middle T of each texel
 /// that it reads, which lies at most `reach` away, across and down.
 ///
-/// *What is stored.* The corners of a triangle of that plane are off, each by itself: across by at most s = t + 1/256
-/// texels, t what f32 makes of a place ([`Window::rounding`](crate::Window::rounding)) and 1/256 a step of the grid that
-/// rasterisers move corners to, half of it for the grid and half for the interpolation of depth; in depth by at most ε
-/// ([`DepthSpan::rounding`](crate::DepthSpan::rounding)). The triangle's own depth D' is affine too. E = D' − D is within
-/// e = s(\|p\| + \|q\|) + ε at the corners, so within the triangle, and the length of its gradient is at most 2e/h where no
-/// height of the triangle is less than h.
-///
-/// *What the receiver may exceed it by.* R is read off by t more, so that T − R is at most r = reach + t on each axis, and
+/// *What f32 does.* A row is off by a sum of magnitudes that hardly changes over the scene, and depth by that over w:
 ///
 /// ```text
-///     D(R) − D'(T) = (D'(R) − D'(T)) − E(R) ≤ r (|p'| + |q'|) + k e       k = 1 + 2√2 r/h
-///     |p| + |q| ≤ 2 max(|p|, |q|) ≤ 2 (m + 2e/h)                          m = max(|p'|, |q'|)
-///     e ≤ (2 s m + ε)/(1 − 4 s/h)
+///     ε(X) = α/w(X) + β
+/// ```
+///
+/// ([`Map::depth_rounding`]; α and β come from the fit). On a plane 1/w is an affine function of the place, as depth is,
+/// and so is ε: where the corners of a triangle are off by ε each, points in it are off by no more than ε there, if a
+/// corner next to a lamp is off by a hundred times as much. Per texel 1/w changes by at most γ + (\|p\| + \|q\|)/−z·l, z
+/// the row of depth and l a light at a position, and by at most γ under a directional light (γ comes from the warp, 0 without
+/// one, see `rounding.rs`). So for ε that is α γ + π (\|p\| + \|q\|), where π = α/−z·l, the part of its distance to the
+/// lamp by which f32 moves a point.
+///
+/// *What is stored.* The corners of a triangle of that plane are off, each by itself: across by at most s = t + 1/256
+/// texels, t what f32 makes of a place ([`Self::places`]) and 1/256 a step of the grid that rasterisers move corners to,
+/// half of it for the grid and half for the interpolation of depth; in depth by at most ε. The triangle's own depth D' is
+/// affine too. E = D' − D is at the corners, and so in the triangle, within the affine function e = s(\|p\| + \|q\|) + ε, and
+/// its gradient within that of e and twice the largest e/h at a corner, h the corner's height over the side across. Where no
+/// h is less than what ε there is to ε at R times some h₀, nor than h₀, e/h is at most e(R)/h₀.
+///
+/// *What the receiver may exceed it by.* R is read off by t more, so that T − R is at most r = reach + t on each axis, and
+/// with e and ε at R and m = max(\|p'\|, \|q'\|)
+///
+/// ```text
+///     D(R) − D'(T) = (D'(R) − D'(T)) − E(R) ≤ r (|p'| + |q'|) + k e + j g
+///     k = 1 + 2√2 r/h₀       j = 2√2 r       g = α γ + π (|p| + |q|)
+///     |p| + |q| ≤ 2 (m + g + 2 e/h₀)         |p'| + |q'| ≤ 2 m
+///     |p| + |q| ≤ 2 (m + α γ + 2 ε/h₀)/n     n = 1 − 2 π − 4 s/h₀
 /// ```
 ///
 /// *What the rasteriser adds.* Slope times the larger of \|p'\| and \|q'\|, or any value from there to the length of the
-/// gradient, as the API's documents allow: at least slope · m, and |p'| + |q'| is at most 2 m. So
+/// gradient, as the API's documents allow: at least slope · m. So
 ///
 /// ```text
-///     slope    = 2 r + 2 k s/(1 − 4 s/h)
-///     receiver = ε + k ε/(1 − 4 s/h)          ε of the receiver's own depth, and of the corners'
-///     constant = 1
+///     slope    = 2 r + 2 f                    f = (k s + j π)/n
+///     receiver = ε + (k + 4 f/h₀) ε + (j + 2 f) α γ
+///     constant = 1                            ε of the receiver's own depth, and of the corners'
 /// ```
 ///
 /// covers all but the rounding of what is stored, half a step, and of what it is compared with where a card brings that
@@ -76,14 +92,20 @@ use glam::DVec3;
 /// so little that `receiver` takes it. In floating point it is a step at the triangle's largest depth, so that it covers
 /// the rounding of a stored value, which is relative too. It vanishes towards depth 0, where ε does not, so that **no
 /// number of units can cover ε**: at the near end of a map, or at the far end of a reversed one. That is why ε is the
-/// receiver's.
+/// receiver's. Of it, what goes with 1/w is [`Self::relative`], as [`Offset::relative`] does, and the rest [`Self::receiver`].
 ///
 /// # What it takes for granted
 ///
-/// - h is a texel, or eight times s where that is more: of thinner triangles the slope itself is noise, and they may be
-///   biased too little.
+/// - h₀ is a texel, or eight times s where that is more: of thinner triangles the slope itself is noise, and they may be
+///   biased too little. A corner that is x times as noisy as the receiver, x times nearer to a lamp, is x h₀ high.
 /// - Corners of triangles are no farther from the origin of the settings than what is visible, or their positions round
 ///   more coarsely than ε says. A rasteriser's grid has 8 bits, as Direct3D asks and all cards today have.
+/// - Receivers and corners are not beside a lamp: closer to it, along the axis of the map, than a 16th of the way to the farthest of
+///   what is visible. A lamp in view has the air around it in view, down to its near distance, where t is hundreds of times
+///   what it is elsewhere, and a slope for that would let light through everywhere. What is beside it and steep may
+///   shadow itself, if f32 carries it by more than `places`; noise of depth is covered there too. Where more is needed,
+///   the light's near distance is the place to say so.
+/// - f32 moves no receiver by more than an eighth of its distance to the lamp.
 /// - It is about planes. At a convex edge, or on a curved surface made of facets, a texel's middle may lie on a facet with
 ///   less slope than the receiver's; a card knows only the caster's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,8 +117,15 @@ pub struct DepthBias {
     pub constant: i32,
     /// What multiplies the slope: the larger of depth's changes to the next texel, across and down.
     pub slope: f32,
-    /// What receivers are tested nearer to the light by, where the depth range is 1.
+    /// What receivers are tested nearer to the light by all over the map, where the depth range is 1.
     pub receiver: f64,
+    /// What they are tested nearer by besides, as a part for [`Offset::relative`]: in depth it goes with 1/w.
+    pub relative: f64,
+    /// The most that both take off the depth of anything visible and no nearer to the light than its near distance.
+    pub most: f64,
+    /// How far f32 may carry a place that `slope` is enough for, in texels: [`Window::rounding`](crate::Window::rounding),
+    /// or what [`Map::place_rounding`] is away from a lamp.
+    pub places: f64,
 }
 
 /// The grid that corners of triangles are moved to, in texels.
@@ -105,6 +134,9 @@ const GRID: f64 = 1.0 / 256.0;
 /// The least height of a triangle that the bias answers for, in texels.
 const LEAST_HEIGHT: f64 = 1.0;
 
+/// The largest part of their distance to the lamp that receivers may be off by.
+const MOST_OF_DISTANCE: f64 = 1.0 / 8.0;
+
 /// Slopes are the next multiple of this, so that they stay the same while the rounding of f32 changes.
 const SLOPE_STEP: f64 = 1.0 / 16.0;
 
@@ -112,7 +144,7 @@ impl DepthBias {
     /// The receiver's part, for [`Map::texture_matrix_with`].
     #[must_use]
     pub fn offset(&self) -> Offset {
-        Offset::of_depth(self.receiver)
+        Offset::of(self.relative, self.receiver)
     }
 
     /// The constant that does without the receiver's part; `None` in floating point, where none does.
@@ -120,7 +152,7 @@ impl DepthBias {
     pub fn constant_alone(&self) -> Option<i32> {
         match self.format {
             DepthFormat::Unorm8 | DepthFormat::Unorm16 | DepthFormat::Unorm24 => {
-                let units = self.receiver / self.format.bias_unit(1.0).start();
+                let units = self.most / self.format.bias_unit(1.0).start();
                 Some(self.constant.saturating_add(units as i32).saturating_add(1))
             }
             DepthFormat::Float32 => None,
@@ -146,20 +178,31 @@ impl Map {
         if reach > f64::from(Settings::MAX_SIZE) {
             return check::fail("reach", Problem::TooLarge);
         }
-        let (across, noise) = (self.window.rounding, self.depth.rounding);
-        let reach = reach + across;
-        let corner = GRID + across;
+        let MapNoise { depth, place, least_w, away_w, to_light, change } = self.noise;
+        let (over_w, constant) = depth.parts(least_w);
+        // What is off by more than the map is anywhere.
+        let places = place.at(away_w).min(Settings::MAX_SIZE.into());
+        let part = if self.light.position().is_some() { (over_w / to_light).min(MOST_OF_DISTANCE) } else { 0.0 };
+        let reach = reach + places;
+        let corner = GRID + places;
         let height = LEAST_HEIGHT.max(8.0 * corner);
-        // Of an error of a corner, at most so much is found at the receiver.
-        let spread = (1.0 + 2.0 * core::f64::consts::SQRT_2 * reach / height) / (1.0 - 4.0 * corner / height);
-        let slope = 2.0 * reach + 2.0 * spread * corner;
+        // What an error of a corner, and of its change, can grow to on the way to the receiver.
+        let on_the_way = 2.0 * core::f64::consts::SQRT_2 * reach;
+        let spread = 1.0 + on_the_way / height;
+        let of_slope = (spread * corner + on_the_way * part) / (1.0 - 2.0 * part - 4.0 * corner / height);
+        let slope = 2.0 * reach + 2.0 * of_slope;
+        let times = 1.0 + spread + 4.0 * of_slope / height;
         // A unit may be less than a step by a little. A half is in the range of depths with the largest steps below 1.
         let short = (format.step(0.5) - format.bias_unit(0.5).start()).max(0.0);
+        let receiver = times * constant + (on_the_way + 2.0 * of_slope) * over_w * change + short;
         Ok(DepthBias {
             format,
             constant: 1,
             slope: (f64::from((slope / SLOPE_STEP) as u32 + 1) * SLOPE_STEP) as f32,
-            receiver: noise + spread * noise + short,
+            receiver,
+            relative: times * over_w / to_light,
+            most: receiver + times * over_w / least_w,
+            places,
         })
     }
 
@@ -175,17 +218,16 @@ impl Map {
             return f64::INFINITY;
         };
         let unit = bias.format.bias_unit(1.0);
-        // The constant, the slope as the length of the gradient, the receiver's part, and the rounding of what is stored.
-        let added = f64::from(bias.constant) * unit.end()
-            + f64::from(bias.slope) * slopes.length()
-            + bias.receiver
-            + bias.format.step(0.5);
+        // The constant, the slope as the length of the gradient, and the rounding of what is stored.
+        let added =
+            f64::from(bias.constant) * unit.end() + f64::from(bias.slope) * slopes.length() + bias.format.step(0.5);
         let [_, _, depth, w] = &self.rows;
+        let tested = bias.offset().depth_row(*depth, *w, self.light.homogeneous(), &self.along);
         let ray = -self.light.direction_from(point);
         let at = w.at(point);
-        // The δ with depth(X + δ ray) = depth(X) + added: both rows are linear in it.
-        let reached = depth.at(point) / at + added;
-        let change = (depth.normal - w.normal * reached).dot(ray);
-        if change > 0.0 { added * at / change } else { f64::INFINITY }
+        // The δ with tested(X + δ ray) = depth(X) + added: all rows are linear in it.
+        let stored = depth.at(point) / at + added;
+        let change = (tested.normal - w.normal * stored).dot(ray);
+        if change > 0.0 { (stored * at - tested.at(point)) / change } else { f64::INFINITY }
     }
 }

@@ -21,6 +21,10 @@ use glam::DVec3;
 /// millionth of a pixel or so, for a scene that is a point.
 const LEAST_PART: f64 = 1.0 / 1_073_741_824.0;
 
+/// What is no farther from a light at a position, along the axis, than this part of the way to the farthest of what is
+/// visible is beside it: a bias answers there for depth, but not for places ([`DepthBias`](crate::DepthBias)).
+const AWAY_FROM_LAMP: f64 = 1.0 / 16.0;
+
 /// What comes of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "a box would need a heap")]
@@ -174,7 +178,6 @@ fn fit_visible(
     let (mut x, mut y, mut depth) = (Interval::EMPTY, Interval::EMPTY, Interval::EMPTY);
     let mut reach = DVec3::ZERO;
     let (mut c, mut ratio, mut seen) = (Interval::EMPTY, Interval::EMPTY, 0.0);
-    let mut rounding = Rounding::new(&map, &rays, origin);
     for point in visible.positions() {
         let values = map.at(point);
         let one = values / values.w;
@@ -188,7 +191,6 @@ fn fit_visible(
         // Points nearer to the light than its near distance need not be right.
         if w >= rays.least_w {
             seen = most(seen, view.half_height(view.depth(point)) / values.w);
-            rounding.include_visible(point, values.w);
         }
     }
     if seen == 0.0 {
@@ -201,6 +203,10 @@ fn fit_visible(
     // H alone would do for the texels that R covers, but a filter reads those around them too.
     let bordered = window.with_half(window.half / settings.inner());
     let least_c = map.least_c(&rays, &bordered, light.near());
+    let mut rounding = Rounding::new(&map, &rays, origin, &c, least_c);
+    for point in visible.positions() {
+        rounding.include_visible(point, map.c_at(point));
+    }
     let casting = body;
     let extent = focus.cut_lit(casting, casters, |_, _| ());
     let planes = map.planes(&bordered, least_c);
@@ -220,7 +226,7 @@ fn fit_visible(
     }
     // Casters beyond all that is visible shadow none of it. Without any casters the least depth is infinite, and those
     // of a flat scene are as deep as what is visible, but for rounding.
-    if depth.min > last + rounding.of_depth(last) {
+    if depth.min > last + rounding.of_depth(&Interval { min: last, max: last }) {
         return Outcome::Empty(Empty::NothingCasts);
     }
     depth.min = least(depth.min, last);
@@ -229,6 +235,11 @@ fn fit_visible(
     let half = rounding.padded_window(&window, settings.inner(), settings.map_size(), smallest);
     let padded = window.with_half(half);
     let padded_depth = rounding.padded_depth(&depth, smallest);
+    // What is so far from a lamp has at least so much c, whatever the warp; under a directional light there is none beside.
+    let away_c = if rays.local { ratio.min * along.max * AWAY_FROM_LAMP } else { c.min };
+    // −e·l.
+    let to_light = if rays.local { along.middle() } else { 1.0 };
+    let noise = rounding.in_map(&map, &padded, &padded_depth, settings.map_size(), [away_c, to_light]);
     Outcome::Map(Map {
         // w is at most 1 on what is visible, whatever the units.
         rows: map.rows_to(&padded, &padded_depth, c.max.recip()),
@@ -236,8 +247,9 @@ fn fit_visible(
         light: *light,
         settings: *settings,
         camera,
-        window: Window::new(&window, &padded, settings.inner(), rounding.in_window(&padded, settings.map_size())),
-        depth: DepthSpan::new(&rays, along.middle(), &padded_depth, rounding.in_depth(&padded_depth)),
+        window: Window::new(&window, &padded, settings.inner(), noise.place.most),
+        depth: DepthSpan::new(&rays, along.middle(), &padded_depth, noise.depth.most),
+        noise,
         along: Along::new(&rays, nearest, along, rounding::of_row(&rays.along, origin, reach), smallest),
         weakening,
         warp_ratio: ratio.max / ratio.min,

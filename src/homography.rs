@@ -44,6 +44,19 @@ impl Homography {
         m.x_axis * point.x + m.y_axis * point.y + m.z_axis * point.z + m.w_axis
     }
 
+    /// c at a point.
+    #[inline]
+    pub(crate) fn c_at(&self, point: DVec3) -> f64 {
+        self.c.at(point)
+    }
+
+    /// How much the uniform map's w changes where c is 1, from a texel to the next one across and to the next one down
+    /// together, in a window of `size` texels a side.
+    pub(crate) fn change_of_inverse_c(&self, window: &Rectangle, size: u32) -> f64 {
+        // There w is 1 − slope · (u, v), as in `least_c`.
+        self.warp.slope.abs().dot(window.half) * 2.0 / f64::from(size)
+    }
+
     /// The least c of anything in the window that is no nearer to the light than `near`.
     pub(crate) fn least_c(&self, rays: &Rays, window: &Rectangle, near: f64) -> f64 {
         // c is 1 at the homogeneous point D = (across, w) of the ray through a corner of the window. A point at

@@ -10,6 +10,7 @@ use crate::offset::Offset;
 use crate::perspective::{LightClass, VirtualCamera, classify};
 use crate::quality::{DepthFormat, Footprint, depth_resolution, depth_slopes, footprint, linear_depth_resolution};
 use crate::rays::Rays;
+use crate::rounding::MapNoise;
 use crate::settings::{Origin, Settings, Warp};
 use crate::view::View;
 use glam::{DMat4, DVec2, DVec3, Mat4};
@@ -39,6 +40,7 @@ pub struct Map {
     pub(crate) window: Window,
     pub(crate) depth: DepthSpan,
     pub(crate) along: Along,
+    pub(crate) noise: MapNoise,
     pub(crate) weakening: f64,
     pub(crate) warp_ratio: f64,
 }
@@ -57,6 +59,7 @@ pub struct Window {
     pub padding: (f64, f64),
     /// How far f32 can carry anything visible across the map, in the matrix and in positions, in texels:
     /// thousandths of one in most uniform maps, more where a strong warp or coordinates far out cost f32 its last bits.
+    /// It is the most there is anywhere, for [`Map::place_rounding`] of a point.
     pub rounding: f64,
 }
 
@@ -83,8 +86,11 @@ pub struct DepthSpan {
     #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
     pub far: f64,
     /// How far f32 can carry the depth of anything visible, in the matrix and in positions, where the depth range is 1:
-    /// the noise that a bias must cover besides the depth format's own. Ranges are made so long that it is at most about
-    /// 2⁻²⁰, 16 steps of 24 bits, and what f32 loses of w besides: some steps in a uniform map, more in a strong warp.
+    /// the noise that a bias must cover besides the depth format's own. It is the most there is anywhere; at a point it may
+    /// be far less ([`Map::depth_rounding`]), as it falls with 1/w.
+    ///
+    /// Ranges are made so long that, where w is largest, it is at most about 2⁻²⁰, 16 steps of 24 bits, and what f32 loses
+    /// of w besides: some steps in a uniform map, more in a strong warp.
     pub rounding: f64,
 }
 
@@ -194,6 +200,28 @@ impl Map {
     #[must_use]
     pub fn depth_slopes(&self, point: DVec3, normal: DVec3) -> Option<DVec2> {
         depth_slopes(&self.rows, point, normal, self.settings.map_size())
+    }
+
+    /// How far f32 can carry the depth of a visible point no nearer to the light than its near distance, in the matrix and
+    /// in positions, where the depth range is 1: [`DepthSpan::rounding`] at most, and no more than a constant over w. Next
+    /// to a lamp, where w is small, it is hundreds of times what it is on all that is lit by it. A receiver before the near
+    /// end of the range, as there are among lists, may be off by its depth times that, and is lit. Infinite outside of
+    /// the map.
+    #[must_use]
+    pub fn depth_rounding(&self, point: DVec3) -> f64 {
+        self.noise.depth.at(self.w_at(point))
+    }
+
+    /// How far f32 can carry such a point across the map, in texels: [`Window::rounding`] at most, and no more than a
+    /// constant over w.
+    #[must_use]
+    pub fn place_rounding(&self, point: DVec3) -> f64 {
+        self.noise.place.at(self.w_at(point))
+    }
+
+    /// w at a point, at most 1 where anything is visible.
+    pub(crate) fn w_at(&self, point: DVec3) -> f64 {
+        self.rows[3].at(point)
     }
 
     /// The distance along the ray from the light, in world units, that one step of a depth format makes at a point.

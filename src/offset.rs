@@ -24,22 +24,24 @@ use glam::DVec4;
 /// | [`Offset::world`], directional light | h | h world units |
 /// | [`Offset::world`], light at a position | a chord of h/(a − h) | h world units or more, wherever something is visible |
 /// | [`Offset::relative`] | k | k/(1 + k) of its distance; k world units under a directional light |
-/// | [`Offset::depth`] | | what changes its depth by β: the row is e − β c |
+/// | [`Offset::depth`], [`Offset::and_depth`] | | what changes its depth by β: the row is e − β c |
+///
+/// As rounding in f32 does, the depth that k takes off goes with 1/w.
 ///
 /// Negative numbers move receivers away. Reversed depth and depth from −1 are taken care of: offsets are given as if depth
 /// grew away from the light, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "stored::Offset"))]
 pub struct Offset {
-    kind: Kind,
+    towards: Towards,
+    depth: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-enum Kind {
+enum Towards {
     World(f64),
     Relative(f64),
-    Depth(f64),
 }
 
 impl Offset {
@@ -53,7 +55,7 @@ impl Offset {
     ///
     /// Names `"distance"` when it is not finite or too large.
     pub fn world(distance: f64) -> Result<Self, InputError> {
-        Ok(Self { kind: Kind::World(check::coordinate("distance", distance)?) })
+        Ok(Self { towards: Towards::World(check::coordinate("distance", distance)?), depth: 0.0 })
     }
 
     /// To the homogeneous point X + `part` · l, see [`Light::homogeneous`](crate::Light::homogeneous): towards a light at
@@ -69,62 +71,70 @@ impl Offset {
         if part < -0.5 {
             return check::fail("part", Problem::TooSmall);
         }
-        Ok(Self { kind: Kind::Relative(part) })
+        Ok(Self::of(part, 0.0))
     }
 
-    /// Nearer by `depth`, where the depth range is 1: [`DepthBias::receiver`](crate::DepthBias::receiver) is for this.
+    /// Nearer by `depth`, where the depth range is 1.
     ///
     /// # Errors
     ///
     /// Names `"depth"` when it is not finite or too large.
     pub fn depth(depth: f64) -> Result<Self, InputError> {
-        Ok(Self { kind: Kind::Depth(check::coordinate("depth", depth)?) })
+        Self::of(0.0, 0.0).and_depth(depth)
     }
 
-    /// [`Self::depth`] for a number that the crate has found.
-    pub(crate) const fn of_depth(depth: f64) -> Self {
-        Self { kind: Kind::Depth(depth) }
+    /// The same, and then nearer by `depth`, where the depth range is 1.
+    ///
+    /// # Errors
+    ///
+    /// Names `"depth"` when it is not finite or too large.
+    pub fn and_depth(self, depth: f64) -> Result<Self, InputError> {
+        Ok(Self { depth: check::coordinate("depth", self.depth + depth)?, ..self })
+    }
+
+    /// [`Self::relative`] and [`Self::and_depth`] for numbers that the crate has found.
+    pub(crate) const fn of(part: f64, depth: f64) -> Self {
+        Self { towards: Towards::Relative(part), depth }
     }
 
     /// What a distance from the light is multiplied by, and what is then taken off it, in parts of a depth range.
     pub(crate) fn of_distance(&self, range: f64) -> (f64, f64) {
-        match self.kind {
-            Kind::Depth(by) => (1.0, by),
-            Kind::Relative(part) => (1.0 / (1.0 + part), 0.0),
-            Kind::World(distance) => (1.0, distance / range),
+        match self.towards {
+            Towards::Relative(part) => (1.0 / (1.0 + part), self.depth),
+            Towards::World(distance) => (1.0, distance / range + self.depth),
         }
     }
 
     /// The row of depth, 0 to 1, with this offset in it.
     pub(crate) fn depth_row(&self, depth: Plane, w: Plane, light: DVec4, along: &Along) -> Plane {
-        let part = match self.kind {
-            Kind::Depth(by) => return depth - w * by,
-            Kind::Relative(part) => Plane::ONE * part,
-            Kind::World(distance) if light.w == 0.0 => Plane::ONE * distance,
-            Kind::World(distance) => along.part_of_light(distance),
+        let part = match self.towards {
+            Towards::Relative(part) => Plane::ONE * part,
+            Towards::World(distance) if light.w == 0.0 => Plane::ONE * distance,
+            Towards::World(distance) => along.part_of_light(distance),
         };
-        depth + part * depth.on(light)
+        depth + part * depth.on(light) - w * self.depth
     }
 }
 
 /// Offsets as they are stored: the same values, checked again when they are read.
 #[cfg(feature = "serde")]
 mod stored {
-    use super::{InputError, Kind};
+    use super::{InputError, Towards};
 
     #[derive(serde::Deserialize)]
     pub(super) struct Offset {
-        kind: Kind,
+        towards: Towards,
+        depth: f64,
     }
 
     impl TryFrom<Offset> for super::Offset {
         type Error = InputError;
         fn try_from(offset: Offset) -> Result<Self, InputError> {
-            match offset.kind {
-                Kind::World(distance) => Self::world(distance),
-                Kind::Relative(part) => Self::relative(part),
-                Kind::Depth(depth) => Self::depth(depth),
-            }
+            match offset.towards {
+                Towards::World(distance) => Self::world(distance),
+                Towards::Relative(part) => Self::relative(part),
+            }?
+            .and_depth(offset.depth)
         }
     }
 }

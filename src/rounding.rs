@@ -1,6 +1,6 @@
 //! What f32 makes of a matrix: how far rounding can carry a point in clip space, and the padding that covers it.
 
-use crate::bounds::{Interval, Rectangle, most};
+use crate::bounds::{self, Interval, Rectangle, least, most};
 use crate::convex::Plane;
 use crate::homography::Homography;
 use crate::rays::Rays;
@@ -22,45 +22,107 @@ pub(crate) fn of_row(row: &Plane, origin: DVec3, extent: DVec3) -> f64 {
     UNITS * (row.normal.abs().dot(extent) + row.at(origin).abs())
 }
 
-/// The largest rounding of the rows a, b, e and c of a homography, relative to c, over what is visible and over what can
-/// cast on it.
+/// Rounding of the rows a, b, e and c of a homography, relative to c, over what is visible and over what can cast on it.
 ///
-/// A bound over points bounds their convex hull too: the sum of magnitudes is convex and c is linear, so that their
-/// ratio is largest at a vertex.
+/// With M the sum of magnitudes, a row is off by at most M/c. M is convex and c is linear, which makes two bounds of what
+/// is found at the vertices of a body:
+///
+/// ```text
+///     M(X)/c(X) ≤ max M / c(X)         M(X)/c(X) ≤ max (M/c)
+/// ```
+///
+/// The first is the better one where positions round alike and c does not stay the same: next to a lamp c is small and M
+/// is not. The second is the better one where M grows with c, as it may in a warp about the eye.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rounding {
     /// Magnitudes of the rows about the origin, as the columns of a matrix.
     magnitudes: DMat4,
     origin: DVec3,
-    visible: Worst,
-    casting: Worst,
+    /// Least and largest c of what is visible and no nearer to the light than its near distance.
+    c: Interval,
+    /// By how much ratios at the vertices may be too small, see [`Self::include_visible`].
+    cut: f64,
+    visible: Visible,
+    /// The largest M/c of what can cast.
+    casting: Rows,
     /// Whether the light is at a position, so that casters may come close to it.
     local: bool,
 }
 
-/// The largest rounding of a/c, b/c, e/c and, relative, of c over some points.
+/// A number for each of the rows a, b, e and c.
 #[derive(Clone, Copy, Debug, Default)]
-struct Worst {
+struct Rows {
     across: DVec2,
     depth: f64,
     w: f64,
 }
 
-impl Worst {
+/// The largest M of what is visible, and the largest M/c.
+#[derive(Clone, Copy, Debug, Default)]
+struct Visible {
+    magnitude: Rows,
+    ratio: Rows,
+}
+
+impl Rows {
     fn include(&mut self, here: DVec4) {
         self.across = DVec2::new(most(self.across.x, here.x), most(self.across.y, here.y));
         self.depth = most(self.depth, here.z);
         self.w = most(self.w, here.w);
     }
 
-    /// Rounding of depths above `least`, whose row is e − least·c.
-    fn of_depth(&self, least: f64) -> f64 {
-        self.depth + least.abs() * self.w
+    fn times(&self, factor: f64) -> Self {
+        Self { across: self.across * factor, depth: self.depth * factor, w: self.w * factor }
+    }
+
+    fn min(&self, other: &Self) -> Self {
+        let across = self.across.min(other.across);
+        Self { across, depth: least(self.depth, other.depth), w: least(self.w, other.w) }
+    }
+
+    /// Rounding of depths in a range, whose row is e − min c or, where depth is reversed, max c − e.
+    fn of_depth(&self, range: &Interval) -> f64 {
+        self.depth + most(range.min.abs(), range.max.abs()) * self.w
     }
 
     /// Rounding of positions across a window, whose rows are a and b less the centre times c.
     fn of_window(&self, window: &Rectangle) -> DVec2 {
         self.across + window.centre.abs() * self.w
+    }
+
+    /// What these make of depth after the division, relative to the range: z counts as it is and w by z/w ≤ 1.
+    fn in_depth(&self, range: &Interval) -> f64 {
+        self.of_depth(range) / (range.max - range.min) + self.w
+    }
+
+    /// The same of texture coordinates, relative to the window. w counts once in the row, which is half the sum of w's
+    /// and another, and twice in the division: |x/w| ≤ 1 there, texture coordinates are half as large.
+    fn in_window(&self, window: &Rectangle) -> f64 {
+        (self.of_window(window) / window.half).max_element() + 3.0 * self.w
+    }
+}
+
+/// How far f32 can carry a value at a point of a map where w is at most 1: no more than `over_w`/w, and than `most`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Noise {
+    pub(crate) over_w: f64,
+    pub(crate) most: f64,
+}
+
+impl Noise {
+    /// Where w is that; infinite outside of the map.
+    pub(crate) fn at(&self, w: f64) -> f64 {
+        if w > 0.0 { least(self.over_w / w, self.most) } else { f64::INFINITY }
+    }
+
+    /// Numbers p and q with p/w + q no less than the noise anywhere: the line, over 1/w, through the corner that its two
+    /// bounds make at w = `over_w`/`most`. It leans so that it is too large by the same factor at both ends, at `least_w`
+    /// and at 1; with a corner at either end it is that end's bound, and exact.
+    pub(crate) fn parts(&self, least_w: f64) -> (f64, f64) {
+        let corner = (self.over_w / self.most).max(least_w).min(1.0);
+        let (far, near) = (corner.recip() - 1.0, corner / least_w - 1.0);
+        let constant = if far + near > 0.0 { near / (far + near) } else { 1.0 };
+        ((1.0 - constant) * self.over_w, constant * self.most)
     }
 }
 
@@ -68,15 +130,20 @@ impl Worst {
 /// window as padding and no more: beyond that the map is for what is visible.
 const MOST_FOR_LOCAL_CASTERS: f64 = 1.0 / 1024.0;
 
-/// A depth range is at least so many times as long as the rounding in it. All that is visible of a flat scene under a
-/// light from straight above has one depth; were its range no longer than needed, there would be nothing but noise in
-/// it, and every point would shadow itself. With this the noise is 16 steps of 24 bits or a 16th of a step of 16, and
-/// what f32 loses of w besides, while no range grows longer than about what the coordinates are large.
+/// A depth range is at least so many times as long as the rounding in it where c is largest. All that is visible of a flat
+/// scene under a light from straight above has one depth; were its range no longer than needed, there would be nothing but
+/// noise in it, and every point would shadow itself. With this the noise is 16 steps of 24 bits or a 16th of a step of 16,
+/// and what f32 loses of w besides, while no range grows longer than about what the coordinates are large.
+///
+/// Elsewhere it is that over w, which bias and padding follow. It must not be where c is least that the range is measured
+/// by: what is visible of a lamp in view begins in the air at its near distance, where noise is hundreds of times larger
+/// than on anything that is seen, and a range so much longer is only coarser.
 pub(crate) const QUIET: f64 = 1_048_576.0;
 
 impl Rounding {
-    /// No points yet; positions are taken relative to `origin`.
-    pub(crate) fn new(map: &Homography, rays: &Rays, origin: DVec3) -> Self {
+    /// No points yet; positions are taken relative to `origin`, c of what is visible is in `c`, and of what is no nearer to
+    /// the light than its near distance at least `least_c`.
+    pub(crate) fn new(map: &Homography, rays: &Rays, origin: DVec3, c: &Interval, least_c: f64) -> Self {
         let rows = map.rows;
         let about = rows.x_axis * origin.x + rows.y_axis * origin.y + rows.z_axis * origin.z + rows.w_axis;
         let [x, y, z, w] = [rows.x_axis, rows.y_axis, rows.z_axis, about].map(|column| column.abs() * UNITS);
@@ -87,79 +154,142 @@ impl Rounding {
             + rows.z_axis.abs() * away_z
             + rows.w_axis.abs() * UNITS_F64;
         let w = w + cancelled;
-        let (visible, casting) = (Worst::default(), Worst::default());
-        Self { magnitudes: DMat4::from_cols(x, y, z, w), origin, visible, casting, local: rays.local }
+        let counted = least(most(c.min, least_c), c.max);
+        Self {
+            magnitudes: DMat4::from_cols(x, y, z, w),
+            origin,
+            c: Interval { min: counted, max: c.max },
+            cut: 2.0 - least(c.min / counted, 1.0),
+            visible: Visible::default(),
+            casting: Rows::default(),
+            local: rays.local,
+        }
     }
 
     #[inline]
-    fn at(&self, point: DVec3, c: f64) -> DVec4 {
+    fn at(&self, point: DVec3) -> DVec4 {
         let DVec3 { x, y, z } = (point - self.origin).abs();
         let m = &self.magnitudes;
-        (m.x_axis * x + m.y_axis * y + m.z_axis * z + m.w_axis) * c.recip()
+        m.x_axis * x + m.y_axis * y + m.z_axis * z + m.w_axis
     }
 
     /// Takes in a visible point, with c there.
+    ///
+    /// Those nearer to the light than its near distance need not be right, but points beyond it lie between them and
+    /// others. With Q the largest M/max(c, c₀) at the vertices and X = Σ μV among them, c(X) = c₀, the least that counts,
+    ///
+    /// ```text
+    ///     M(X) ≤ Σ μ M(V) ≤ Q Σ μ max(c(V), c₀) ≤ Q (c(X) + c₀ − min c)
+    /// ```
+    ///
+    /// so that M/c is at most Q (2 − min c/c₀) there, and where c is larger.
     #[inline]
     pub(crate) fn include_visible(&mut self, point: DVec3, c: f64) {
-        self.visible.include(self.at(point, c));
+        let here = self.at(point);
+        self.visible.magnitude.include(here);
+        self.visible.ratio.include(here * most(c, self.c.min).recip());
     }
 
     /// Takes in a point that may cast, with c there.
     #[inline]
     pub(crate) fn include_casting(&mut self, point: DVec3, c: f64) {
-        self.casting.include(self.at(point, c));
+        self.casting.include(self.at(point) * c.recip());
+    }
+
+    /// Rounding of what is visible, relative to c, at most.
+    fn visible(&self) -> Rows {
+        self.visible.ratio.times(self.cut).min(&self.visible.magnitude.times(self.c.min.recip()))
     }
 
     /// Rounding of the depths of everything.
-    pub(crate) fn of_depth(&self, least: f64) -> f64 {
-        self.visible.of_depth(least).max(self.casting.of_depth(least))
+    pub(crate) fn of_depth(&self, range: &Interval) -> f64 {
+        self.visible().of_depth(range).max(self.casting.of_depth(range))
     }
 
     /// Half extents of a window that holds `window` after rounding in the `inner` part of a map of `size` texels a
     /// side, no smaller than `least`, nor so small that a texel would be less than the rounding.
     pub(crate) fn padded_window(&self, window: &Rectangle, inner: f64, size: u32, least: f64) -> DVec2 {
-        let visible = self.visible.of_window(window);
+        let of_visible = self.visible();
+        let visible = of_visible.of_window(window);
         let (mut casting, mut casting_w) = (self.casting.of_window(window), self.casting.w);
         if self.local {
             casting = casting.min(window.half * MOST_FOR_LOCAL_CASTERS);
             casting_w = casting_w.min(MOST_FOR_LOCAL_CASTERS);
         }
-        let w = self.visible.w.max(casting_w).min(0.5);
+        let w = of_visible.w.max(casting_w).min(0.5);
         let padded = (window.half + visible.max(casting)) / ((1.0 - w) * inner);
         padded.max(visible * (0.5 * f64::from(size))).max(DVec2::splat(least))
     }
 
     /// A depth range that holds `depth` after rounding, no shorter than `least`, nor so short that the rounding of what
-    /// is visible would be more than a millionth of it.
+    /// is visible would be more than a millionth of it where c is largest.
     pub(crate) fn padded_depth(&self, depth: &Interval, least: f64) -> Interval {
         let length = depth.max - depth.min;
         // Twice the rounding of z and of w, at either end that of what lies there; casters next to a light may at most
         // double the range.
-        let pad = |worst: &Worst| 2.0 * (worst.of_depth(depth.min) + length * worst.w);
-        let far = pad(&self.visible);
+        let pad = |worst: &Rows| 2.0 * (worst.of_depth(depth) + length * worst.w);
+        let far = pad(&self.visible());
         let near = far.max(pad(&self.casting).min(length));
-        let shortest = least.max(QUIET * self.visible.of_depth(depth.min));
+        // Of the row e − min c only what a longer range makes less of: the ends are no farther apart than it is long, so
+        // that the rest is at most what f32 loses of w. Hyperbolic depth begins far below 0 and ends next to it.
+        let Rows { depth: e, w, .. } = self.visible.magnitude;
+        let quietest = (e + bounds::least(depth.min.abs(), depth.max.abs()) * w) / self.c.max;
+        let shortest = least.max(QUIET * quietest);
         let missing = 0.5 * (shortest - (length + near + far)).max(0.0);
         Interval { min: depth.min - near - missing, max: depth.max + far + missing }
     }
 
-    /// Rounding of the depth of what is visible in a depth range, relative to its length.
-    pub(crate) fn in_depth(&self, depth: &Interval) -> f64 {
-        (self.visible.of_depth(depth.min) / (depth.max - depth.min) + self.visible.w) / self.left_of_w()
-    }
-
-    /// Rounding of the place of what is visible in a window, in texels of a map of `size` texels a side, read by texture
-    /// coordinates, whose rows are half the sum of w's and another.
-    pub(crate) fn in_window(&self, window: &Rectangle, size: u32) -> f64 {
-        // w counts once in the row, and twice in the division: |x/w| ≤ 1 there, texture coordinates are half as large.
+    /// What all this makes of a map of `size` texels a side, where what is not beside a lamp has at least the c, and −e·l is
+    /// as said.
+    pub(crate) fn in_map(
+        &self,
+        map: &Homography,
+        window: &Rectangle,
+        depth: &Interval,
+        size: u32,
+        [away_c, to_light]: [f64; 2],
+    ) -> MapNoise {
         // Where f32 loses half of w or more, a point is anywhere.
-        let left = self.left_of_w();
-        let across = (self.visible.of_window(window) / window.half).max_element() + 3.0 * (1.0 - left);
-        0.5 * f64::from(size) * across / left
+        let left = 1.0 - self.visible().w.min(0.5);
+        let noise = |of: &dyn Fn(&Rows) -> f64| Noise {
+            over_w: of(&self.visible.magnitude.times(self.c.max.recip())) / left,
+            most: of(&self.visible()) / left,
+        };
+        MapNoise {
+            depth: noise(&|rows| rows.in_depth(depth)),
+            place: noise(&|rows| 0.5 * f64::from(size) * rows.in_window(window)),
+            least_w: self.c.min / self.c.max,
+            away_w: most(away_c, self.c.min) / self.c.max,
+            to_light: to_light / (depth.max - depth.min) / self.c.max,
+            change: map.change_of_inverse_c(window, size) / to_light * self.c.max,
+        }
     }
+}
 
-    /// What rounding leaves of w where something is visible, as a part; half of it where it may leave less.
-    fn left_of_w(&self) -> f64 {
-        1.0 - self.visible.w.min(0.5)
-    }
+/// Noise of what is visible in a map, whose w is 1 where it is largest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct MapNoise {
+    /// Of depth, where its range is 1.
+    pub(crate) depth: Noise,
+    /// Of places, in texels, read by texture coordinates.
+    pub(crate) place: Noise,
+    /// The least w of anything no nearer to the light than its near distance.
+    pub(crate) least_w: f64,
+    /// The least w of anything that is not beside a lamp.
+    pub(crate) away_w: f64,
+    /// −z·l, z the row of depth, more than 0: what an [`Offset::relative`](crate::Offset::relative) of 1 takes off depth
+    /// where w is 1. The matrix may have lost it where all this is far from the origin.
+    pub(crate) to_light: f64,
+    /// How much 1/w changes on a plane from a texel to the next one, across and down together, apart from the part
+    /// 1/−z·l of how much depth does under a light at a position.
+    ///
+    /// With D the point on a ray, on the chart, where c is 1, a point X = l + t D has c·X = t and
+    ///
+    /// ```text
+    ///     e·X/c·X = e·l/c·X + e·D         1/c·X = (e·D − z)/(−e·l)         for a light at a position,
+    ///     1/c·X = w(D)                                                     for a directional one, X = (D + t l)/w(D),
+    /// ```
+    ///
+    /// where w(D), which e·D is in the first case, is linear in the place in the map and the same for all planes.
+    pub(crate) change: f64,
 }

@@ -343,6 +343,8 @@ fn exercise(view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) 
         ("window rounding", window.rounding),
         ("slope", bias.slope.into()),
         ("receiver", bias.receiver),
+        ("relative", bias.relative),
+        ("most of both", bias.most),
         ("linear depth", map.linear_depth().normal.length()),
         ("depth near", depth.near),
         ("depth rounding", depth.rounding),

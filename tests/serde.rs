@@ -170,7 +170,8 @@ fn results() {
     comes_back::<DepthResolution>(report.depth_resolution);
     comes_back::<DepthBias>(map.bias(DepthFormat::Float32, 1.5).unwrap());
     comes_back([Offset::world(0.1), Offset::relative(1e-3), Offset::depth(1e-4)].map(Result::unwrap));
-    tampered(&Offset::relative(0.1).unwrap(), "/kind/Relative", json!(-2.0), "part is too small");
+    comes_back(Offset::world(0.1).unwrap().and_depth(1e-4).unwrap());
+    tampered(&Offset::relative(0.1).unwrap(), "/towards/Relative", json!(-2.0), "part is too small");
     comes_back::<Footprint>(map.footprint(focus.visible().vertices()[0]).unwrap());
     comes_back::<Plane>(report.body.planes().next().unwrap());
     comes_back(Aabb::new(Vec3::NEG_ONE, Vec3::ONE * 0.1));

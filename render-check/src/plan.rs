@@ -207,8 +207,7 @@ pub fn plan(args: &PlanArgs) -> Result<()> {
     ));
     report::write(&report, &out.join("plan.json"))?;
     say(&format!("wrote plan.json to {}", out.display()));
-    let missing: usize =
-        report.lights.iter().map(|light| light.drawn.verdict.counts.missing).sum();
+    let missing: usize = report.lights.iter().map(|light| light.drawn.verdict.counts.missing).sum();
     ensure!(
         missing == 0,
         "{missing} pixels are lit because a caster is missing from a map, or a map from the plan"

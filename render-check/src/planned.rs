@@ -113,10 +113,16 @@ fn technique(of_light: &LightPlan) -> Technique {
     }
 }
 
-/// The bias of a pass of a plan, and what receivers are moved by besides.
-fn bias(pass: &shadowfit::Pass) -> (Bias, f64) {
-    pass.bias()
-        .map_or((Bias::NONE, 0.0), |bias| (Bias { constant: bias.constant, slope: bias.slope }, bias.receiver))
+/// How a pass of a plan is drawn: with its bias, and as `options` say besides.
+fn drawn(pass: &shadowfit::Pass, options: &Options) -> MapPass {
+    let Options { format, faces, points, .. } = *options;
+    let none = MapPass { format, faces, bias: Bias::NONE, receiver: 0.0, relative: 0.0, points };
+    pass.bias().map_or(none, |bias| MapPass {
+        bias: Bias { constant: bias.constant, slope: bias.slope },
+        receiver: bias.receiver,
+        relative: bias.relative,
+        ..none
+    })
 }
 
 impl FittedMaps {
@@ -155,10 +161,7 @@ impl FittedMaps {
                 }
             };
             let objects = plan.casters(pass).iter().map(|&id| id as usize).collect();
-            let (bias, receiver) = bias(pass);
-            let pass =
-                MapPass { format: options.format, faces: options.faces, bias, receiver, points: options.points };
-            maps[part] = Some(FittedMap { map, pass, objects });
+            maps[part] = Some(FittedMap { map, pass: drawn(pass, options), objects });
         }
         if maps.iter().all(Option::is_none) {
             return Ok(None);

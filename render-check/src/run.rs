@@ -67,15 +67,15 @@ impl Options {
     ///
     /// When the filter reaches nowhere.
     pub fn pass(&self, map: &Layout) -> Result<MapPass> {
-        let (bias, receiver) = match (self.bias, self.faces, self.filter) {
-            (Some(bias), ..) => (bias, 0.0),
-            (None, Faces::Second | Faces::Layers, _) | (None, _, Filter::Virtual(_)) => (Bias::NONE, 0.0),
+        let (bias, (receiver, relative)) = match (self.bias, self.faces, self.filter) {
+            (Some(bias), ..) => (bias, (0.0, 0.0)),
+            (None, Faces::Second | Faces::Layers, _) | (None, _, Filter::Virtual(_)) => (Bias::NONE, (0.0, 0.0)),
             _ => {
                 let enough = map.bias(self.format, self.filter.reach())?;
-                (Bias { constant: enough.constant, slope: enough.slope }, enough.receiver)
+                (Bias { constant: enough.constant, slope: enough.slope }, (enough.receiver, enough.relative))
             }
         };
-        Ok(MapPass { format: self.format, faces: self.faces, bias, receiver, points: self.points })
+        Ok(MapPass { format: self.format, faces: self.faces, bias, receiver, relative, points: self.points })
     }
 
     /// As many texels around what is visible as the filter reaches.

@@ -85,24 +85,20 @@ fn casters_behind_the_eye_cast_into_the_picture() {
 }
 
 /// One map serves some lamps in the room, the faces of a cube all of them.
-///
-/// A lamp that hangs in view has R reach to its near distance, a thousandth of the scene off, where depths are noisy in
-/// f32. The one constant of the bias covers that noise, and far from the lamp it lets light through: hence the second
-/// bound.
 #[test]
 fn lights_inside_the_scene_have_a_map_a_cube_or_a_reason() {
-    let runs = sweep("lights-inside", 0.068);
+    let runs = sweep("lights-inside", 0.012);
     let mut without = 0;
     for run in &runs {
         match (verdict(run), run.run.technique.has_faces()) {
             (Some(verdict), has_faces) => {
-                let out_of_view = run.case.starts_with("room");
-                let most = if !has_faces {
-                    0.012
-                } else if out_of_view {
-                    0.0012
-                } else {
-                    0.068
+                // A lamp that hangs in view has R reach to its near distance, a thousandth of the scene off, where depths
+                // are noisy in f32. The bias follows that noise, so that it costs nothing farther off.
+                let in_view = !run.case.starts_with("room");
+                let most = match (has_faces, in_view) {
+                    (false, _) => 0.012,
+                    (true, false) => 0.0012,
+                    (true, true) => 0.0019,
                 };
                 let counts = verdict.counts;
                 assert!(counts.fraction(counts.faults()) <= most, "{run}: {counts:?}");
@@ -128,7 +124,7 @@ fn paraboloids_miss_no_caster() {
     let runs = sweep("paraboloids", 0.005);
     for run in &runs {
         let counts = verdict(run).expect("a map").counts;
-        let most = if faces(run) == Faces::Second { 0.005 } else { 0.0036 };
+        let most = if pass(run).faces == Faces::Second { 0.005 } else { 0.0036 };
         assert!(counts.shadowed > 1000 && counts.fraction(counts.faults()) <= most, "{run}: {counts:?}");
     }
     let two = |run: &&SweepRun| run.case == "room, in view";
@@ -387,8 +383,14 @@ fn along_the_light_a_warp_is_no_warp() {
 /// Draws some casters through some map and judges it: what a broken fit or a broken culler would do.
 fn judged(stage: &Stage<'_>, light: &StageLight, map: &Map, casters: &[std::ops::Range<u32>]) -> Verdict {
     let bias = Bias { constant: 9, slope: 1.125 };
-    let pass =
-        MapPass { format: DepthFormat::Unorm24, faces: Faces::All, bias, receiver: 0.0, points: Points::Discs };
+    let pass = MapPass {
+        format: DepthFormat::Unorm24,
+        faces: Faces::All,
+        bias,
+        receiver: 0.0,
+        relative: 0.0,
+        points: Points::Discs,
+    };
     let split = Split::whole();
     let draw = MapDraw { map: Layout::Frustum(*map), casters, pass };
     let shadow_maps = ShadowMaps::draw(stage.gpu, &stage.geometry, &split, &[Some(draw)]).expect("drawn");

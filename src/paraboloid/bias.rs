@@ -74,11 +74,15 @@ impl Paraboloid {
         // Of an error of a corner, at most so much is found at the receiver.
         let spread = (1.0 + 2.0 * core::f64::consts::SQRT_2 * reach / height) / left;
         let slope = reach + spread * corner;
+        let receiver = noise.depth + spread * noise.depth;
         Ok(DepthBias {
             format,
             constant: 1,
             slope: (f64::from((slope / SLOPE_STEP) as u32 + 1) * SLOPE_STEP) as f32,
-            receiver: noise.depth + spread * noise.depth,
+            receiver,
+            relative: 0.0,
+            most: receiver,
+            places: noise.texels,
         })
     }
 

@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
 use shadowfit::{
-    Aabb, Budget, CubeFace, DepthTest, Focus, Form, Kind, Light, LightPlan, Objects, Origin, Outcome, Plan,
-    Scene, Settings, Shift, View, Warp, plan,
+    Aabb, Budget, CubeFace, DepthTest, Focus, Form, Kind, Light, LightPlan, Objects, Origin, Outcome, Plan, Scene,
+    Settings, Shift, View, Warp, plan,
 };
 
 use crate::cut::Cutting;

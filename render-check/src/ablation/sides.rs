@@ -94,8 +94,8 @@ impl Sides {
             }
             Effect::Culling => {
                 let all = setup.undiscerning(&planned);
-                let is_asked_for = all.fitted.drawn(setup.stage).triangles
-                    > planned.fitted.drawn(setup.stage).triangles;
+                let is_asked_for =
+                    all.fitted.drawn(setup.stage).triangles > planned.fitted.drawn(setup.stage).triangles;
                 Self { is_asked_for, with: Some(planned), without: Some(all) }
             }
             Effect::Narrowing => {

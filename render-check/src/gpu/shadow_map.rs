@@ -4,8 +4,8 @@ use std::ops::Range;
 use std::time::Duration;
 
 use anyhow::{Context, Result, bail, ensure};
-use shadowfit::glam::{Mat4, Vec3, Vec4};
-use shadowfit::{ClipSpace, Culling, DepthBias, DepthFormat, DepthRange, Offset, Paraboloid, YAxis};
+use shadowfit::glam::{Mat4, Vec2, Vec3, Vec4};
+use shadowfit::{ClipSpace, Culling, DepthFormat, DepthRange, Offset, Paraboloid, YAxis};
 
 use super::pass::{Pass, PipelineKind, depth_state};
 use super::splats::{Points, SplatPass};
@@ -40,6 +40,8 @@ pub struct MapPass {
     pub bias: Bias,
     /// What receivers are tested nearer to the light by, where the map's depth range is 1.
     pub receiver: f64,
+    /// And as a part, see [`Offset::relative`].
+    pub relative: f64,
     /// What is drawn for points. Splats and texels have no sides.
     pub points: Points,
 }
@@ -128,7 +130,8 @@ impl ShadowMaps {
                 axis.as_vec3().extend(if map.is_some() { layer } else { -1.0 })
             });
             let receiver = |draw: &MapDraw<'_>| {
-                let offset = Offset::depth(draw.pass.receiver).context("receivers cannot be moved so")?;
+                let offset = Offset::relative(draw.pass.relative).and_then(|it| it.and_depth(draw.pass.receiver));
+                let offset = offset.context("receivers cannot be moved so")?;
                 Ok((draw.map, offset))
             };
             Ok(Self {
@@ -266,13 +269,9 @@ fn draw_layer(
 
 /// What the fragments of a paraboloid need besides its matrix: texture scale, clip scale and bias, and no more numbers.
 fn in_fragments(map: &Paraboloid, pass: &MapPass) -> Mat4 {
-    let bias = DepthBias {
-        format: pass.format,
-        constant: pass.bias.constant,
-        slope: pass.bias.slope,
-        receiver: pass.receiver,
-    };
-    let (scale, bias) = (map.clip_scale(), bias.in_shader());
+    // As `DepthBias::in_shader` has it, of a bias that may be the command line's.
+    let constant = f64::from(pass.bias.constant) * *pass.format.bias_unit(1.0).end();
+    let (scale, bias) = (map.clip_scale(), Vec2::new(constant as f32, pass.bias.slope));
     Mat4::from_cols(map.texture_scale(), scale.extend(bias.x).extend(bias.y), Vec4::ZERO, Vec4::ZERO)
 }
 

@@ -118,7 +118,9 @@ fn shadow_test_unguarded(
         (Filter::Nearest, None) => (shaders::nearest(layout), None),
         (Filter::Hardware, None) => (shaders::hardware(layout), None),
         (Filter::PercentageCloser(taps), None) => (shaders::percentage_closer(layout), Some(taps)),
-        (Filter::Virtual(_), None) if layout == LayoutText::Paraboloid => bail!("paraboloids have no virtual samples"),
+        (Filter::Virtual(_), None) if layout == LayoutText::Paraboloid => {
+            bail!("paraboloids have no virtual samples")
+        }
         (Filter::Virtual(taps), None) => (shaders::virtual_samples(), Some(taps)),
         (Filter::Nearest, Some(_)) => (shaders::between_layers(), Some(1)),
         (Filter::PercentageCloser(taps), Some(_)) => (shaders::between_layers(), Some(taps)),

@@ -39,7 +39,7 @@ fn stage(clip: ClipSpace) -> Stage {
 
 fn draw_all(stage: &Stage, format: DepthFormat, bias: Bias) -> (Geometry, ShadowMaps) {
     let geometry = Geometry::upload(&stage.gpu, &stage.mesh, stage.view.eye()).expect("it fits");
-    let pass = MapPass { format, faces: Faces::All, bias, receiver: 0.0, points: Points::Discs };
+    let pass = MapPass { format, faces: Faces::All, bias, receiver: 0.0, relative: 0.0, points: Points::Discs };
     let all = 0..stage.mesh.triangles.len() as u32;
     let draw = MapDraw { map: Layout::Frustum(stage.map), casters: &[all], pass };
     let shadow_maps = ShadowMaps::draw(&stage.gpu, &geometry, &Split::whole(), &[Some(draw)]).expect("drawn");
@@ -139,8 +139,14 @@ fn each_part_of_a_light_has_its_layer() {
     let split = Split::cube(DVec3::new(0.0, 0.5, -4.0));
     let (all, bias) = (0..stage.mesh.triangles.len() as u32, Bias { constant: 4, slope: 2.0 });
     let all = [all];
-    let pass =
-        MapPass { format: DepthFormat::Float32, faces: Faces::All, bias, receiver: 0.0, points: Points::Discs };
+    let pass = MapPass {
+        format: DepthFormat::Float32,
+        faces: Faces::All,
+        bias,
+        receiver: 0.0,
+        relative: 0.0,
+        points: Points::Discs,
+    };
     let (full, empty) = (
         MapDraw { map: Layout::Frustum(stage.map), casters: &all, pass },
         MapDraw { map: Layout::Frustum(stage.map), casters: &[], pass },
@@ -210,7 +216,7 @@ fn the_second_layer_is_the_next_surface_that_rays_meet() {
         let geometry = Geometry::upload(&stage.gpu, &stage.mesh, stage.view.eye()).expect("it fits");
         for format in [DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32] {
             let (bias, points) = (Bias::NONE, Points::Discs);
-            let pass = MapPass { format, faces: Faces::Layers, bias, receiver: 0.0, points };
+            let pass = MapPass { format, faces: Faces::Layers, bias, receiver: 0.0, relative: 0.0, points };
             let all = 0..stage.mesh.triangles.len() as u32;
             let draw = MapDraw { map: Layout::Frustum(stage.map), casters: std::slice::from_ref(&all), pass };
             let maps = ShadowMaps::draw(&stage.gpu, &geometry, &Split::whole(), &[Some(draw)]).expect("drawn");
@@ -249,7 +255,7 @@ fn what_cannot_be_tested_between_layers_is_refused() {
     let all = 0..stage.mesh.triangles.len() as u32;
     let maps = |points| {
         let format = DepthFormat::Float32;
-        let pass = MapPass { format, faces: Faces::Layers, bias: Bias::NONE, receiver: 0.0, points };
+        let pass = MapPass { format, faces: Faces::Layers, bias: Bias::NONE, receiver: 0.0, relative: 0.0, points };
         let draw = MapDraw { map: Layout::Frustum(stage.map), casters: std::slice::from_ref(&all), pass };
         ShadowMaps::draw(&stage.gpu, &geometry, &Split::whole(), &[Some(draw)])
     };
@@ -317,7 +323,14 @@ fn draw_hemispheres(stage: &Stage, maps: &[Paraboloid; 2], format: DepthFormat) 
     let cut = cut.expect("not too many").expect("cut");
     let all = 0..cut.mesh.triangles.len() as u32;
     let all = [all];
-    let pass = MapPass { format, faces: Faces::All, bias: Bias::NONE, receiver: 0.0, points: Points::Discs };
+    let pass = MapPass {
+        format,
+        faces: Faces::All,
+        bias: Bias::NONE,
+        receiver: 0.0,
+        relative: 0.0,
+        points: Points::Discs,
+    };
     let draws = maps.map(|map| Some(MapDraw { map: Layout::Paraboloid(map), casters: &all, pass }));
     let split = Split::halves(LAMP, maps[0].axis());
     ShadowMaps::draw(&stage.gpu, &cut.geometry, &split, &draws).expect("drawn")
@@ -374,6 +387,7 @@ fn what_paraboloids_cannot_do_is_an_error() {
         faces: Faces::All,
         bias: Bias::NONE,
         receiver: 0.0,
+        relative: 0.0,
         points: Points::Splats,
     };
     let all = 0..cloud.triangles.len() as u32;
