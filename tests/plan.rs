@@ -26,7 +26,8 @@ fn town(rng: &mut StdRng) -> Vec<Object> {
         );
         let surface = match rng.random_range(0..10) {
             0 => Surface::Points,
-            1..5 => Surface::Mesh(Solidity::Open),
+            1..3 => Surface::FlatSheets,
+            3..5 => Surface::Mesh(Solidity::Open),
             _ => Surface::Mesh(Solidity::Solid),
         };
         objects.push(Object {
@@ -375,8 +376,8 @@ fn maps_keep_to_the_texels_of_all_lights() {
 }
 
 #[test]
-fn sheets_are_tested_by_virtual_samples_where_a_bias_would_show() {
-    let sheet = Object { surface: Surface::Mesh(Solidity::Open), ..tower() };
+fn flat_sheets_are_tested_by_virtual_samples_where_a_bias_would_show() {
+    let sheet = Object { surface: Surface::FlatSheets, ..tower() };
     let plan = planned(&looking_ahead(), sun(), &[ground(50.0), sheet], &at_most(256));
     assert_because!(&plan, Kind::Perspective, Reason::BiasShows(_), Reason::TexelsShow(_));
     assert!(plan.virtual_samples() && plan.passes().iter().all(|pass| pass.bias().is_none()));
@@ -384,13 +385,21 @@ fn sheets_are_tested_by_virtual_samples_where_a_bias_would_show() {
 
 /// Nothing is small enough that the least map has several texels for each pixel.
 #[test]
-fn sheets_are_tested_with_a_bias_where_it_is_hidden_and_texels_with_it() {
+fn flat_sheets_are_tested_with_a_bias_where_it_is_hidden_and_texels_with_it() {
     let [small, sheet] = [ground(0.1), thing([0.0; 3], [0.1; 3])];
-    let sheet = Object { surface: Surface::Mesh(Solidity::Open), ..sheet };
+    let sheet = Object { surface: Surface::FlatSheets, ..sheet };
     let plan = planned(&looking_down(), sun(), &[small, sheet], &at_most(4096));
     assert_because!(&plan, Kind::Uniform, Reason::BiasHidden(_), Reason::TexelsHidden(_));
     assert_eq!(plan.filter(), Filter::Nearest);
     assert!(plan.passes().iter().all(|pass| pass.bias().is_some()));
+}
+
+#[test]
+fn sheets_that_curve_are_tested_with_a_bias() {
+    let sheet = Object { surface: Surface::Mesh(Solidity::Open), ..tower() };
+    let plan = planned(&looking_ahead(), sun(), &[ground(50.0), sheet], &at_most(256));
+    assert_because!(&plan, Kind::Perspective, Reason::SheetsCurve, Reason::TexelsShow(_));
+    assert!(!plan.virtual_samples() && plan.passes().iter().all(|pass| pass.bias().is_some()));
 }
 
 #[test]

@@ -3,8 +3,7 @@
 use anyhow::{Context, Result};
 use shadowfit::glam::{DVec3, Vec3};
 use shadowfit::{
-    Aabb, CubeFace, DepthFormat, DepthTest, Kind, Light, LightPlan, Object, Objects, Plan, Projection, Shift,
-    Surface, Warp,
+    Aabb, CubeFace, DepthFormat, DepthTest, Kind, Light, LightPlan, Object, Objects, Plan, Projection, Shift, Warp,
 };
 
 use crate::cut::Cutting;
@@ -37,13 +36,12 @@ pub fn bounds(object: &scene::Object) -> Aabb {
 /// When the scene is too large.
 pub fn objects(mesh: &Mesh) -> Result<Objects> {
     let of = |object: &scene::Object| {
-        let is_cloud = object.triangles.start as usize >= mesh.first_disc_triangle();
         let edges = object.triangles.clone().flat_map(|triangle| {
             let [a, b, c] = mesh.corners(triangle as usize);
             [a.distance(b), b.distance(c), c.distance(a)]
         });
         Object {
-            surface: if is_cloud { Surface::Points } else { Surface::Mesh(object.solidity) },
+            surface: object.surface,
             triangles: object.triangles.len() as u32,
             longest_edge: (edges.fold(0.0, f64::max) as f32).next_up(),
             ..Object::new(bounds(object))

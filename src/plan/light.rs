@@ -254,7 +254,7 @@ impl Planner<'_> {
             Filter::PercentageCloser(3..) if aliasing <= BLENDED => Filter::Hardware,
             widest => widest,
         };
-        let (test, virtual_samples) = made_of.test(2.0 * filter.reach() * aliasing, &mut reasons);
+        let (test, virtual_samples) = made_of.test(kind, 2.0 * filter.reach() * aliasing, &mut reasons);
         reasons.push(match filter {
             Filter::Nearest if aliasing <= HIDDEN => Reason::TexelsHidden(aliasing),
             Filter::Hardware if aliasing <= BLENDED => Reason::TexelsBlend(aliasing),
@@ -306,7 +306,8 @@ impl Planner<'_> {
 /// What the casters of a light are made of.
 #[derive(Default)]
 struct MadeOf {
-    sheets: bool,
+    curved_sheets: bool,
+    flat_sheets: bool,
     points: bool,
 }
 
@@ -314,18 +315,25 @@ impl MadeOf {
     fn include(&mut self, object: &Object) {
         match object.surface {
             Surface::Mesh(Solidity::Solid | Solidity::InsideOut) => {}
-            Surface::Mesh(Solidity::Open) => self.sheets = true,
+            Surface::Mesh(Solidity::Open) => self.curved_sheets = true,
+            Surface::FlatSheets => self.flat_sheets = true,
             Surface::Points => self.points = true,
         }
     }
 
     /// The test for them, and whether by virtual samples, where a bias would move shadows by so many pixels.
-    fn test(&self, moved: f64, reasons: &mut Vec<Reason>) -> (DepthTest, bool) {
+    ///
+    /// A sheet holds its own depths in second depth too, and virtual samples tell them apart on a plane. Beside a bend the
+    /// plane goes on where the sheet does not, so that a curved sheet would need a bias all the same.
+    fn test(&self, kind: Kind, moved: f64, reasons: &mut Vec<Reason>) -> (DepthTest, bool) {
+        let has_samples = !matches!(kind, Kind::Paraboloid | Kind::DualParaboloid);
         let (test, virtual_samples, why) = if self.points {
             (DepthTest::First, false, Reason::PointsCast)
-        } else if !self.sheets {
+        } else if self.curved_sheets {
+            (DepthTest::First, false, Reason::SheetsCurve)
+        } else if !self.flat_sheets {
             (DepthTest::Second, false, Reason::AllSolid)
-        } else if moved <= HIDDEN_BIAS {
+        } else if moved <= HIDDEN_BIAS || !has_samples {
             (DepthTest::First, false, Reason::BiasHidden(moved))
         } else {
             (DepthTest::Second, true, Reason::BiasShows(moved))

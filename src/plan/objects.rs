@@ -3,7 +3,7 @@
 use super::groups::Groups;
 use crate::error::{InputError, Problem, check};
 use crate::scene::{Aabb, checked_box};
-use crate::solidity::Solidity;
+use crate::solidity::{Sheet, Solidity, SolidityReport};
 use glam::DVec3;
 use std::vec::Vec;
 
@@ -13,14 +13,25 @@ use std::vec::Vec;
 pub enum Surface {
     /// Triangles, see [`Solidity::of`].
     Mesh(Solidity),
+    /// An open mesh, each part of which lies in a plane: a card, a leaf, a pane.
+    FlatSheets,
     /// Points or discs, drawn as splats.
     Points,
 }
 
 impl Default for Surface {
-    /// Triangles of which nothing is known, which is the same as an open mesh.
+    /// Triangles of which nothing is known, which is the same as an open mesh that curves.
     fn default() -> Self {
         Self::Mesh(Solidity::Open)
+    }
+}
+
+impl From<&SolidityReport> for Surface {
+    fn from(report: &SolidityReport) -> Self {
+        match report.sheet {
+            Some(Sheet { is_flat: true, .. }) => Self::FlatSheets,
+            _ => Self::Mesh(report.solidity),
+        }
     }
 }
 

@@ -44,10 +44,12 @@ pub enum Reason {
     OverBudget(u32),
     /// Second depth without a bias: all casters are solid.
     AllSolid,
-    /// First depth with a bias: not all casters are solid, and the bias moves shadows by no more than this part of a
-    /// pixel.
+    /// First depth with a bias: there are open casters that are not flat.
+    SheetsCurve,
+    /// First depth with a bias: there are flat sheets among the casters, and the bias moves shadows by so few pixels, or
+    /// the map is a paraboloid, which has no virtual samples.
     BiasHidden(f64),
-    /// Virtual samples: not all casters are solid, and a bias would move shadows by so many pixels.
+    /// Virtual samples: there are flat sheets among the casters, and a bias would move shadows by so many pixels.
     BiasShows(f64),
     /// First depth with a bias: there are points among the casters.
     PointsCast,
@@ -90,6 +92,7 @@ impl fmt::Display for Reason {
             Self::SmallerMap(size) => write!(f, "{size} texels a side are fine enough"),
             Self::OverBudget(size) => write!(f, "{size} texels a side: more would exceed those of all lights"),
             Self::AllSolid => f.write_str("second depth, no bias: all casters are solid"),
+            Self::SheetsCurve => f.write_str("first depth with a bias: there are open casters that are not flat"),
             Self::BiasHidden(pixels) => {
                 write!(f, "first depth with a bias: it moves shadows by {pixels:.2} pixels at most")
             }

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use shadowfit::Solidity;
 use shadowfit::glam::{DMat3, DMat4, DVec3, Vec3};
+use shadowfit::{Solidity, Surface};
 
 use super::LeftOut;
 use super::cloud::{self, Disc};
@@ -36,6 +36,8 @@ pub struct Object {
     pub max: DVec3,
     /// Whether it is a solid.
     pub solidity: Solidity,
+    /// The same for a planner, which asks of sheets whether they are flat as well.
+    pub surface: Surface,
 }
 
 impl Mesh {
@@ -160,8 +162,9 @@ impl MeshBuilder {
             let triangles = first_triangle as u32..self.mesh.triangles.len() as u32;
             // What cannot be told is drawn as a sheet is: from both sides.
             let report = Solidity::of(&self.mesh.vertices, &all_of_part);
-            let solidity = report.map_or(Solidity::Open, |report| report.solidity);
-            self.mesh.objects.push(Object { triangles, min, max, solidity });
+            let (solidity, surface) = report
+                .map_or((Solidity::Open, Surface::default()), |report| (report.solidity, Surface::from(&report)));
+            self.mesh.objects.push(Object { triangles, min, max, solidity, surface });
         }
     }
 
@@ -195,6 +198,9 @@ impl MeshBuilder {
         let of_disc = |first: u32| Disc::TRIANGLES.map(|triangle| triangle.map(|corner| first + corner));
         let triangles: Vec<[u32; 3]> = (0..discs.len() as u32).flat_map(|disc| of_disc(6 * disc)).collect();
         self.add(&Part { positions: &positions, normals: &[], triangles: &triangles, colour }, DMat4::IDENTITY);
+        if let Some(object) = self.mesh.objects.last_mut() {
+            object.surface = Surface::Points;
+        }
         self.mesh.discs.extend(discs);
     }
 }
