@@ -88,6 +88,7 @@ impl fmt::Display for Reason {
             Self::CoarseCasters => {
                 f.write_str("no paraboloid: an edge of a caster is too long for a map that bends lines")
             }
+            Self::Faces(6) => f.write_str("a cube's six faces: each has something to show"),
             Self::Faces(count) => write!(f, "{count} of a cube's six faces: the others have nothing to show"),
             Self::SmallerMap(size) => write!(f, "{size} texels a side are fine enough"),
             Self::OverBudget(size) => write!(f, "{size} texels a side: more would exceed those of all lights"),

@@ -18,8 +18,6 @@ pub enum Effect {
     SeveralMaps,
     /// The faces of a cube that have nothing to show left out, against all six.
     FaceDropping,
-    /// One or two paraboloids, against the faces of a cube.
-    Paraboloid,
     /// Second depth without a bias, against first depth with one.
     SecondDepth,
     /// Virtual samples, against first depth with a bias.
@@ -49,7 +47,7 @@ impl Effect {
     #[must_use]
     pub fn buys(self) -> Buys {
         match self {
-            Self::FaceDropping | Self::Paraboloid | Self::Culling => Buys::Work,
+            Self::FaceDropping | Self::Culling => Buys::Work,
             _ => Buys::Accuracy,
         }
     }
@@ -63,7 +61,6 @@ impl fmt::Display for Effect {
             Self::BackShift => "back-shift",
             Self::SeveralMaps => "several maps",
             Self::FaceDropping => "face dropping",
-            Self::Paraboloid => "paraboloid",
             Self::SecondDepth => "second depth",
             Self::VirtualSamples => "virtual samples",
             Self::Filter => "filter",

@@ -1,6 +1,6 @@
 //! An effect, with and without: which of the two the plan chose, and what the other would have been.
 
-use anyhow::{Result, bail, ensure};
+use anyhow::{Result, ensure};
 use shadowfit::{DepthTest, Kind, Reason, Shift, Warp};
 
 use super::effect::Effect;
@@ -62,7 +62,6 @@ impl Sides {
                 let all = setup.all_faces(&planned)?;
                 Self { is_asked_for: !is_complete, with: Some(planned), without: Some(all) }
             }
-            Effect::Paraboloid => bail!("a paraboloid is planned, not drawn"),
             Effect::SecondDepth => {
                 let is_solid = has(|reason| matches!(reason, Reason::AllSolid));
                 let test = if is_solid { DepthTest::First } else { DepthTest::Second };

@@ -47,7 +47,7 @@ impl SplatPass<'_> {
             shader: &shaders::splats(),
             constants: &[("map_size", self.size.into()), ("scale", self.points.scale())],
             takes_geometry: false,
-            has_fragments: false,
+            has_fragments: true,
             primitive: wgpu::PrimitiveState::default(),
             depth: Some(self.depth.clone()),
             targets: &[],

@@ -1,5 +1,5 @@
-//! A tree over a bench on a paved square. Its leaves are single sheets without a thickness, thousands of them: casters
-//! that have no inside, seen and lit from both faces. One unit is a metre; the trunk stands at the origin.
+//! A tree over a bench on a paved square. Its leaves are single flat sheets without a thickness, thousands of them:
+//! casters that have no inside, seen and lit from both faces. One unit is a metre; the trunk stands at the origin.
 
 use shadowfit::glam::{DMat4, DVec2, DVec3};
 
@@ -137,8 +137,7 @@ fn leaf_corners(twig_tip: DVec3, leaf: u32) -> [DVec3; 4] {
     let along = up.cross(direction(leaf, 5)).normalize_or(up.any_orthonormal_vector());
     let size = 0.75 + 0.5 * scattered(leaf, 7);
     let half_width = 0.5 * LEAF_WIDTH * size * along.cross(up);
-    // The two halves fold up a little along the midrib.
-    let widest = stalk + size * (0.45 * LEAF_LENGTH * along + 0.03 * up);
+    let widest = stalk + size * 0.45 * LEAF_LENGTH * along;
     [stalk, widest + half_width, stalk + size * LEAF_LENGTH * along, widest - half_width]
 }
 
