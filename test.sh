@@ -27,13 +27,21 @@ step 'tests, all features'
 cargo test --workspace --all-features
 
 # The heavy comparisons ran above and do not depend on features; here the other tests show that each set is whole.
-for features in '' std,parry3d std,mint std,serde libm; do
+for features in '' libm; do
     step "tests, features: ${features:-std}"
     if [ -z "$features" ]; then
         cargo test --package shadowfit
     else
         cargo test --package shadowfit --no-default-features --features "$features"
     fi
+done
+
+# What each of the other features adds: all of it builds with that feature alone, and its own tests pass.
+for of_feature in parry3d:parry mint:mint serde:serde spade:refine wgsl:paraboloid; do
+    feature=${of_feature%%:*}
+    step "tests, features: std,$feature"
+    cargo check --package shadowfit --all-targets --no-default-features --features "std,$feature"
+    cargo test --package shadowfit --no-default-features --features "std,$feature" --lib --test "${of_feature##*:}"
 done
 
 step 'tests, the lower end of the glam range'
