@@ -129,16 +129,33 @@ pub struct DepthBias {
 }
 
 /// The grid that corners of triangles are moved to, in texels.
-const GRID: f64 = 1.0 / 256.0;
+pub(crate) const GRID: f64 = 1.0 / 256.0;
 
 /// The least height of a triangle that the bias answers for, in texels.
-const LEAST_HEIGHT: f64 = 1.0;
+pub(crate) const LEAST_HEIGHT: f64 = 1.0;
 
 /// The largest part of their distance to the lamp that receivers may be off by.
 const MOST_OF_DISTANCE: f64 = 1.0 / 8.0;
 
 /// Slopes are the next multiple of this, so that they stay the same while the rounding of f32 changes.
 const SLOPE_STEP: f64 = 1.0 / 16.0;
+
+/// A filter's reach, in texels, checked at the door.
+pub(crate) fn checked_reach(reach: f64) -> Result<f64, InputError> {
+    let reach = check::coordinate("reach", reach)?;
+    if reach < 0.5 {
+        return check::fail("reach", Problem::TooSmall);
+    }
+    if reach > f64::from(Settings::MAX_SIZE) {
+        return check::fail("reach", Problem::TooLarge);
+    }
+    Ok(reach)
+}
+
+/// The next multiple of [`SLOPE_STEP`] above a slope.
+pub(crate) fn stepped(slope: f64) -> f32 {
+    (f64::from((slope / SLOPE_STEP) as u32 + 1) * SLOPE_STEP) as f32
+}
 
 impl DepthBias {
     /// The receiver's part, for [`Map::texture_matrix_with`].
@@ -171,13 +188,7 @@ impl Map {
     ///
     /// Names `"reach"` when it is not finite, below 0.5 or above [`Settings::MAX_SIZE`].
     pub fn bias(&self, format: DepthFormat, reach: f64) -> Result<DepthBias, InputError> {
-        let reach = check::coordinate("reach", reach)?;
-        if reach < 0.5 {
-            return check::fail("reach", Problem::TooSmall);
-        }
-        if reach > f64::from(Settings::MAX_SIZE) {
-            return check::fail("reach", Problem::TooLarge);
-        }
+        let reach = checked_reach(reach)?;
         let MapNoise { depth, place, least_w, away_w, to_light, change } = self.noise;
         let (over_w, constant) = depth.parts(least_w);
         // What is off by more than the map is anywhere.
@@ -198,7 +209,7 @@ impl Map {
         Ok(DepthBias {
             format,
             constant: 1,
-            slope: (f64::from((slope / SLOPE_STEP) as u32 + 1) * SLOPE_STEP) as f32,
+            slope: stepped(slope),
             receiver,
             relative: times * over_w / to_light,
             most: receiver + times * over_w / least_w,

@@ -191,7 +191,7 @@ impl Map {
     /// The side of a pixel at a point, across the view axis, in world units.
     #[must_use]
     pub fn pixel_size(&self, point: DVec3) -> f64 {
-        2.0 * self.view.half_height(self.view.depth(point)) / f64::from(self.settings.image_height())
+        self.view.pixel_size(point, self.settings.image_height())
     }
 
     /// How much the depth of the plane through a point across `normal` (of any length) changes from one texel to the next,

@@ -260,6 +260,11 @@ impl View {
         }
     }
 
+    /// The side of a pixel at a point, across the view axis, in world units, of an image so many pixels high.
+    pub(crate) fn pixel_size(&self, point: DVec3, image_height: u32) -> f64 {
+        2.0 * self.half_height(self.depth(point)) / f64::from(image_height)
+    }
+
     /// The planes of V in world space, inside ≥ 0: left, right, bottom, top, near and, unless it is infinite, far.
     #[must_use]
     pub fn planes(&self) -> FrustumPlanes {

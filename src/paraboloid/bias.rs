@@ -1,21 +1,11 @@
 //! The bias that a paraboloid map needs, and receivers moved towards the light.
 
 use super::Paraboloid;
-use crate::bias::DepthBias;
-use crate::error::{InputError, Problem, check};
+use crate::bias::{DepthBias, GRID, LEAST_HEIGHT, checked_reach, stepped};
+use crate::error::InputError;
 use crate::offset::Offset;
 use crate::quality::DepthFormat;
-use crate::settings::Settings;
 use glam::{DMat4, DVec2, DVec3, Mat4, Vec2};
-
-/// The grid that corners of triangles are moved to, in texels.
-const GRID: f64 = 1.0 / 256.0;
-
-/// The least height of a triangle that the bias answers for, in texels.
-const LEAST_HEIGHT: f64 = 1.0;
-
-/// Slopes are the next multiple of this, so that they stay the same while the rounding of f32 changes.
-const SLOPE_STEP: f64 = 1.0 / 16.0;
 
 /// Places are as noisy as the bias says from this part of the far distance on. Nearer to the light a texel is smaller than
 /// what f32 knows of positions.
@@ -57,15 +47,9 @@ impl Paraboloid {
     ///
     /// # Errors
     ///
-    /// Names `"reach"` when it is not finite, below 0.5 or above [`Settings::MAX_SIZE`].
+    /// Names `"reach"` when it is not finite, below 0.5 or above [`Settings::MAX_SIZE`](crate::Settings::MAX_SIZE).
     pub fn bias(&self, format: DepthFormat, reach: f64) -> Result<DepthBias, InputError> {
-        let reach = check::coordinate("reach", reach)?;
-        if reach < 0.5 {
-            return check::fail("reach", Problem::TooSmall);
-        }
-        if reach > f64::from(Settings::MAX_SIZE) {
-            return check::fail("reach", Problem::TooLarge);
-        }
+        let reach = checked_reach(reach)?;
         let noise = self.noise_between(self.near.max(QUIET_FROM * self.far), self.far);
         let reach = reach + noise.texels;
         let corner = GRID + noise.texels;
@@ -78,7 +62,7 @@ impl Paraboloid {
         Ok(DepthBias {
             format,
             constant: 1,
-            slope: (f64::from((slope / SLOPE_STEP) as u32 + 1) * SLOPE_STEP) as f32,
+            slope: stepped(slope),
             receiver,
             relative: 0.0,
             most: receiver,

@@ -187,7 +187,7 @@ impl Paraboloid {
     /// The side of a pixel at a point, across the view axis, in world units.
     #[must_use]
     pub fn pixel_size(&self, point: DVec3) -> f64 {
-        2.0 * self.view.half_height(self.view.depth(point)) / f64::from(self.settings.image_height())
+        self.view.pixel_size(point, self.settings.image_height())
     }
 
     /// The distance along the ray from the light, in world units, that one step of a depth format makes at a point.

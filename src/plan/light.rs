@@ -235,10 +235,9 @@ impl Planner<'_> {
         let (mut passes, mut made_of) = (Vec::new(), MadeOf::default());
         for projection in projections {
             let pass = self.pass(focus, projection, reach, casters, &mut made_of);
-            if pass.casters.is_empty() {
-                continue;
+            if !pass.casters.is_empty() {
+                passes.push(pass);
             }
-            passes.push(pass);
         }
         let Some(size) = passes.iter().map(Pass::map_size).max() else {
             return LightPlan::nothing(Reason::NothingCasts);

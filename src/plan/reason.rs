@@ -58,7 +58,7 @@ pub enum Reason {
     /// The sampler's own filter, though a wider one is allowed: the largest texel is this part of a pixel, so that no more
     /// is needed.
     TexelsBlend(f64),
-    /// Filtered: the largest texel is so many times as large as a pixel.
+    /// The widest filter that is allowed: the largest texel is so many times as large as a pixel.
     TexelsShow(f64),
 }
 
@@ -107,7 +107,7 @@ impl fmt::Display for Reason {
             Self::TexelsBlend(part) => {
                 write!(f, "blended: the largest texel is {part:.2} pixels, so that no wider filter is needed")
             }
-            Self::TexelsShow(times) => write!(f, "filtered: the largest texel is {times:.2} pixels"),
+            Self::TexelsShow(times) => write!(f, "the widest filter: the largest texel is {times:.2} pixels"),
         }
     }
 }
