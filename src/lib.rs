@@ -69,9 +69,9 @@
 //!
 //! # Features
 //!
-//! - `std` (on): square roots and angles from the standard library, and what needs memory of its own: the planner and
-//!   [`Solidity`]. Without it, enable `libm`.
-//! - `libm`: square roots and angles from the `libm` crate, with the same bits on every platform.
+//! - `std` (on): square roots from the standard library, and what needs memory of its own: the planner and [`Solidity`].
+//!   Without it, enable `libm`.
+//! - `libm`: square roots from the `libm` crate.
 //! - `parry3d`: bodies, boxes and convex hulls from and to parry3d.
 //! - `mint`: vectors and matrices of other libraries at the door, through glam.
 //! - `spade`: meshes cut finely enough for paraboloid maps (`Refiner`).
@@ -86,6 +86,7 @@
 extern crate std;
 
 mod along;
+mod angle;
 mod axis;
 mod bias;
 mod bounds;

@@ -1,9 +1,10 @@
 //! The light l, and L, what it can light.
 
+use crate::angle;
 use crate::convex::Plane;
 use crate::cube::CubeFace;
 use crate::error::{InputError, Problem, check};
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DVec3, DVec4};
 
 /// A light: a homogeneous point l and a convex region L outside of which it lights nothing.
 ///
@@ -220,13 +221,13 @@ impl Light {
                 }
             }
             Shape::Spot { axis, half_angle } => {
-                let (sin_cos, (u, v)) =
-                    (DVec2::from_angle(half_angle), crate::frame::across(axis, DVec3::NEG_Z, DVec3::Y));
+                let (sine, cosine) = angle::sine_cosine(half_angle);
+                let (u, v) = crate::frame::across(axis, DVec3::NEG_Z, DVec3::Y);
                 for side in [u, -u, v, -v] {
-                    planes.push(Plane::through(axis * sin_cos.y - side * sin_cos.x, position));
+                    planes.push(Plane::through(axis * sine - side * cosine, position));
                 }
                 // At the cone's side a point at distance `near` is only this far along the axis.
-                planes.push_slab(axis, position, near * sin_cos.x, range);
+                planes.push_slab(axis, position, near * cosine, range);
             }
             Shape::Hemisphere { axis } => {
                 let (u, v) = crate::frame::across(axis, DVec3::NEG_Z, DVec3::Y);

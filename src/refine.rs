@@ -1,5 +1,6 @@
 //! Meshes cut so finely that a light sees every edge under a small angle.
 
+use crate::angle;
 use crate::error::{InputError, Problem, check};
 use glam::{DVec2, DVec3};
 use spade::handles::DirectedEdgeHandle;
@@ -135,7 +136,7 @@ impl Refiner {
         if a.length() < self.near && b.length() < self.near {
             return 0.0;
         }
-        DVec2::new(a.dot(b), a.cross(b).length()).to_angle()
+        angle::of_vector(a.dot(b), a.cross(b).length())
     }
 
     /// Whether an edge must be cut.
@@ -161,8 +162,8 @@ impl Refiner {
         for part in 1..=parts as u32 {
             // The ray at an angle φ from the first end meets the edge where it divides it as |a| sin φ to |b| sin(θ − φ).
             let turned = angle * f64::from(part) / parts;
-            let before = first * DVec2::from_angle(turned).y;
-            let after = last * DVec2::from_angle(angle - turned).y;
+            let before = first * angle::sine_cosine(turned).0;
+            let after = last * angle::sine_cosine(angle - turned).0;
             let part = if turned < angle { before / (before + after) } else { 1.0 };
             let cut = steps(part).clamp(done, STEPS);
             self.halve(edge, done..cut, &mut cuts)?;

@@ -1,5 +1,6 @@
 //! The view V: the camera's frustum, whatever convention its matrices came in.
 
+use crate::angle;
 use crate::clip_space::{ClipSpace, DepthRange};
 use crate::convex::{Plane, matrix_from_rows};
 use crate::decode::{EyeAxes, Frame};
@@ -64,8 +65,8 @@ impl View {
         if !(fov_y > 0.0 && fov_y < core::f64::consts::PI) {
             return check::fail("fov_y", Problem::AngleOutOfRange);
         }
-        let half = DVec2::from_angle(0.5 * fov_y);
-        let slope = check::distance("fov_y", half.y / half.x)?;
+        let (sine, cosine) = angle::sine_cosine(0.5 * fov_y);
+        let slope = check::distance("fov_y", sine / cosine)?;
         let slopes = DVec2::new(check::distance("aspect", slope * check::distance("aspect", aspect)?)?, slope);
         let axes = Axes::looking(forward.into(), up.into())?;
         Self::checked(eye.into(), axes, Lens::Perspective, -slopes, slopes, near, far)

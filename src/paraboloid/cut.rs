@@ -23,6 +23,7 @@
 //! `(r₂ − r₁)(√h₂ − √h₁) / (√h₂ + √h₁)`.
 
 use super::Paraboloid;
+use crate::angle;
 use glam::{DVec2, DVec3};
 
 impl Paraboloid {
@@ -34,7 +35,7 @@ impl Paraboloid {
     /// such edges it may be 4/3 of it: Σ λᵢλⱼ is at most 1/4 for two vertices and 1/3 for three.
     #[must_use]
     pub fn edge_error(&self, angle: f64) -> f64 {
-        let sine = DVec2::from_angle(0.25 * angle).y;
+        let (sine, _) = angle::sine_cosine(0.25 * angle);
         2.0 * sine * sine * self.texels_per_unit()
     }
 
@@ -45,7 +46,8 @@ impl Paraboloid {
         // sin²(π/8), for a right angle.
         const MOST: f64 = 0.146_446_609_406_726_24;
         let square = (0.5 * texels / self.texels_per_unit()).clamp(0.0, MOST);
-        if square > 0.0 { 4.0 * DVec2::new(1.0 - square, square).sqrt().to_angle() } else { 0.0 }
+        let [cosine, sine] = DVec2::new(1.0 - square, square).sqrt().to_array();
+        if square > 0.0 { 4.0 * angle::of_vector(cosine, sine) } else { 0.0 }
     }
 
     /// How far the depths that are drawn along a straight edge from `a` to `b`, both in the hemisphere, can be from those of

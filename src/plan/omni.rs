@@ -3,12 +3,13 @@
 use super::light::{Candidate, Found, Planner, Reach, WORTH};
 use super::reason::Reason;
 use super::{Kind, Projection};
+use crate::angle;
 use crate::cube::CubeFace;
 use crate::fit::Empty;
 use crate::focus::Focus;
 use crate::paraboloid::{Paraboloid, Paraboloids};
 use crate::scene::{Aabb, Bounds, Scene};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use std::vec::Vec;
 
 /// How far, in texels, a paraboloid map may bend an edge.
@@ -126,6 +127,6 @@ fn is_short(edge: f64, one: &Aabb, paraboloid: &Paraboloid) -> bool {
     // What is nearer than the near distance does not cast.
     let distance = position.distance(position.clamp(min, max)).max(paraboloid.near());
     // Seen from a distance d to its nearest point, an edge of length e subtends at most 2 · atan(e/2d).
-    let angle = 2.0 * DVec2::new(2.0 * distance, edge).to_angle();
+    let angle = 2.0 * angle::of_vector(2.0 * distance, edge);
     paraboloid.edge_error(angle) <= BENT
 }
