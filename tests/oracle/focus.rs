@@ -13,7 +13,7 @@
 //! - **Little is gained.** Every computed vertex lies inside the exact body's half-spaces moved
 //!   outwards by δ, and there is none where that body is empty.
 //!
-//! A plane n·x + offset of V, S or L moves by 2 · 48 ε (|n|·extent + |offset|)/|n|: the core moves it
+//! A plane n·x + offset of V, S or L moves by 2 · 96 ε (|n|·extent + |offset|)/|n|: the core moves it
 //! by half of that, and the other half is what its own argument allows for the rounding of vertices.
 //! The planes of a hull follow. Elimination leaves Y in the computed hull exactly if some β ≥ 0 has
 //! πᵢ(Y) + mᵢ ≥ β (πᵢ·l + eᵢ) for all planes, mᵢ their slack and eᵢ the rounding of πᵢ·l; so Y − βl is
@@ -38,7 +38,7 @@ use crate::homogeneous::{ExactPlane, ExactPoint, Homogeneous};
 use crate::hull::hull;
 
 /// What the core moves planes by, in units of the sum of the magnitudes of their terms.
-const SLACK: f64 = 48.0 * f64::EPSILON;
+const SLACK: f64 = 96.0 * f64::EPSILON;
 
 /// Roundings of a plane's value at the light, in the same units.
 const AT_LIGHT: f64 = 4.0 * f64::EPSILON;
@@ -381,4 +381,23 @@ fn lamp_on_the_line_of_a_scene_that_is_a_segment() {
     let light = LightParams::Point { position: [0.380_962_981_626_110_75, y, z], near: 3.6e-4, range: None };
     let scene = SceneParams::Bounds { min: [-0.797_397_325_351_127, y, z], max: [0.810_482_848_011_230_6, y, z] };
     check_one(view, light, scene);
+}
+
+/// The far plane is a thousand times as far away as the scene is large, and the sun shines along the view: a plane's value
+/// at the light that is off by a rounding of its terms turns the silhouette about the far corners.
+#[test]
+fn sun_along_a_view_that_reaches_far_beyond_the_scene() {
+    let pose = Pose {
+        eye: [1_892_666.490_976_138_5, 1_425_825.808_268_803_9, -1_841_533.421_697_060_3],
+        forward: [0.209_522_771_925_046_12, 0.484_249_672_399_047_15, -0.849_471_872_887_066_6],
+        up: [-0.007_472_598_960_999_909, 1.034_696_209_007_395_2, -0.035_218_366_590_221_01],
+    };
+    let (aspect, near, far) = (1.539_579_400_466_893_2, 41_879.497_032_197_26, Some(4_313_478_611.111_423_5));
+    let view = ViewParams::Perspective { pose, fov_y: 0.001, aspect, near, far };
+    let direction_to_light = [-0.209_522_771_925_046, -0.484_249_672_399_047_9, 0.849_471_872_887_066_2];
+    let scene = SceneParams::Bounds {
+        min: [-555_711.589_251_520_6, 1_446_087.125_648_275_3, -1_877_126.617_869_298_2],
+        max: [1_901_412.756_107_658, 6_087_385.729_266_9, 1_123_467.666_355_528_2],
+    };
+    check_one(view, LightParams::Directional { direction_to_light }, scene);
 }
