@@ -308,12 +308,9 @@ impl PlaneList {
                 hull.push(plane);
             }
         }
-        let bound = hull.len;
-        hull.push_silhouettes(&with_values, towards, away, |i, j| body.meet(i, j));
         // A segment's ends have no edge in common, and bound its hull with a light in line with it all the same.
-        if hull.len == bound {
-            hull.push_silhouettes(&with_values, towards, away, |_, _| true);
-        }
+        let is_segment = body.vertices().len() == 2;
+        hull.push_silhouettes(&with_values, towards, away, |i, j| is_segment || body.meet(i, j));
         Some(hull)
     }
 }

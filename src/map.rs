@@ -182,6 +182,11 @@ impl Map {
 
     /// Aliasing at a point: the longer side of a texel's footprint over the side of a pixel's, both across their rays.
     /// At 1 a texel is as large as a pixel, above it is larger and shows. `None` outside of the map.
+    ///
+    /// On a surface a texel is stretched by 1/cos of the angle between its normal and the light, and a pixel by 1/cos of
+    /// that between its normal and the view, so that what is seen there is this times cos(view, normal)/cos(light, normal).
+    /// Stamminger & Drettakis (2002, §1.1) have that factor in their formula; the words beside it call β the angle between
+    /// light and normal, which contradicts it.
     #[must_use]
     pub fn aliasing(&self, point: DVec3) -> Option<f64> {
         let pixel = self.pixel_size(point);

@@ -23,6 +23,7 @@
 //! `(r₂ − r₁)(√h₂ − √h₁) / (√h₂ + √h₁)`.
 
 use super::Paraboloid;
+use core::f64::consts::FRAC_PI_2;
 use glam::{DVec2, DVec3};
 
 impl Paraboloid {
@@ -45,7 +46,7 @@ impl Paraboloid {
         // sin²(π/8), for a right angle.
         const MOST: f64 = 0.146_446_609_406_726_24;
         let square = (0.5 * texels / self.texels_per_unit()).clamp(0.0, MOST);
-        if square > 0.0 { 4.0 * DVec2::new(1.0 - square, square).sqrt().to_angle() } else { 0.0 }
+        if square > 0.0 { (4.0 * DVec2::new(1.0 - square, square).sqrt().to_angle()).min(FRAC_PI_2) } else { 0.0 }
     }
 
     /// How far the depths that are drawn along a straight edge from `a` to `b`, both in the hemisphere, can be from those of

@@ -401,3 +401,20 @@ fn sun_along_a_view_that_reaches_far_beyond_the_scene() {
     };
     check_one(view, LightParams::Directional { direction_to_light }, scene);
 }
+
+/// Five units in the last place beside that line, which are less than what planes are moved by.
+#[test]
+fn lamp_almost_on_the_line_of_a_scene_that_is_a_segment() {
+    let [x, y, z] = [3.039_754_158_122_918e-4, 2.762_269_943_780_980_4e-3, -2.867_669_766_935_168_4e-3];
+    let pose = Pose {
+        eye: [x, y, z],
+        forward: [0.738_961_455_800_044_1, -0.511_253_932_878_304_9, 0.438_811_329_569_263_94],
+        up: [-0.001_204_717_379_299_338_4, 0.971_619_175_323_918_8, -0.041_147_022_331_410_05],
+    };
+    let (aspect, near, far) = (1.875_961_481_208_951_9, 0.000_160_159_371_254_516_6, Some(6.886_024_093_245_126));
+    let view = ViewParams::Perspective { pose, fov_y: 3.0, aspect, near, far };
+    let light = LightParams::Point { position: [x, y, z], near: 3.2e-3, range: Some(0.144_496_425_388_557_9) };
+    let [x, z] = [3.039_754_158_122_925e-4, -2.867_669_766_935_169_2e-3];
+    let scene = SceneParams::Bounds { min: [x, 0.0, z], max: [x, 0.041_337_622_752_744_316, z] };
+    check_one(view, light, scene);
+}
