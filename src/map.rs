@@ -23,7 +23,7 @@ use glam::{DMat4, DVec2, DVec3, Mat4};
 ///
 /// - every point of R and of H, taken through the f32 matrix in f32, lies inside the clip volume, and R keeps the border
 ///   of the settings from its sides. There are three exceptions: a point where f32 loses half of w or more, as next to a
-///   lamp of millimetres a thousand kilometres from the origin, is anywhere; a caster so near to a light at a position that f32 cannot
+///   lamp of millimetres a thousand kilometres from the origin in [`Origin::World`], is anywhere; a caster so near to a light at a position that f32 cannot
 ///   tell where it stands to within a thousandth of the window may be off by its rounding; and where casters and
 ///   receivers have lists of their own, a receiver may be nearer to the light than the first caster, and is lit;
 /// - points on a ray from the light share their (x, y), and depth grows away from the light: the test is 'less', or
