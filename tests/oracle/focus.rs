@@ -36,6 +36,7 @@ use crate::cone::generators;
 use crate::exact::sqrt_ratio;
 use crate::homogeneous::{ExactPlane, ExactPoint, Homogeneous};
 use crate::hull::hull;
+use crate::loss::{Shape, losses};
 
 /// What the core moves planes by, in units of the sum of the magnitudes of their terms.
 const SLACK: f64 = 96.0 * f64::EPSILON;
@@ -44,19 +45,19 @@ const SLACK: f64 = 96.0 * f64::EPSILON;
 const AT_LIGHT: f64 = 4.0 * f64::EPSILON;
 
 /// The planes of a case, and how large its numbers are.
-struct Input {
+pub(crate) struct Input {
     view: View,
-    v: Vec<Plane>,
+    pub(crate) v: Vec<Plane>,
     /// S and L.
-    lit: Vec<Plane>,
-    light: [f64; 4],
+    pub(crate) lit: Vec<Plane>,
+    pub(crate) light: [f64; 4],
     /// The largest coordinates in S.
-    extent: DVec3,
+    pub(crate) extent: DVec3,
 }
 
 impl Input {
     /// None for scenes of lists, whose bounds are the crate's own choice.
-    fn of(case: &Case) -> Option<Self> {
+    pub(crate) fn of(case: &Case) -> Option<Self> {
         let cuts = match &case.scene {
             SceneParams::Bounds { .. } => Vec::new(),
             SceneParams::Cut { planes, .. } => planes.iter().copied().map(plane).collect(),
@@ -74,7 +75,33 @@ impl Input {
         Some(Self { view, v: view.planes().to_vec(), lit, light: light.homogeneous().to_array(), extent })
     }
 
-    fn planes(&self) -> Vec<Plane> {
+    /// The crate's R, the paper's H and the tight H.
+    pub(crate) fn computed(&self, case: &Case) -> [Computed; 3] {
+        let (view, light) = case.build();
+        let store = case.scene.store();
+        let scene = store.scene().expect("the scene is accepted");
+        let focus = Focus::new(&view, &light, &scene);
+        [focus.visible(), focus.body(Form::Paper), focus.body(Form::Tight)]
+    }
+
+    /// The exact body of one of these.
+    pub(crate) fn exact_body(&self, index: usize) -> Body {
+        let cut = |hull: &[ExactPlane]| {
+            let lit: Vec<ExactPlane> = self.lit.iter().map(exact).collect();
+            Body::from_exact_planes([&lit[..], hull].concat())
+        };
+        let visible = || Body::from_exact_planes(self.planes().iter().map(exact).collect());
+        match index {
+            0 => visible(),
+            1 => {
+                let v: Vec<[f64; 4]> = self.v.iter().map(|plane| plane.to_row().to_array()).collect();
+                cut(&hull(&v, self.light))
+            }
+            _ => cut(&self.hull_of(&visible())),
+        }
+    }
+
+    pub(crate) fn planes(&self) -> Vec<Plane> {
         [&self.lit[..], &self.v].concat()
     }
 
@@ -147,13 +174,13 @@ fn exact(plane: &Plane) -> ExactPlane {
 }
 
 /// The half-spaces of the hull of points.
-fn facets(points: &[ExactPoint]) -> Vec<ExactPlane> {
+pub(crate) fn facets(points: &[ExactPoint]) -> Vec<ExactPlane> {
     let has_normal = |plane: &ExactPlane| plane.xyz().iter().any(|component| !component.is_zero());
     generators(points).into_iter().map(|ray| ray.vector).filter(has_normal).collect()
 }
 
 /// How far outside of a half-space a point is; zero inside.
-fn outside(plane: &ExactPlane, point: &ExactPoint) -> f64 {
+pub(crate) fn outside(plane: &ExactPlane, point: &ExactPoint) -> f64 {
     if plane.side(point) != Ordering::Less {
         return 0.0;
     }
@@ -184,7 +211,7 @@ fn displacement(planes: &[(Plane, f64)]) -> f64 {
 
 /// What was found for one of the three bodies.
 #[derive(Default)]
-struct Figures {
+pub(crate) struct Figures {
     empty: usize,
     flat: usize,
     solid: usize,
@@ -212,21 +239,8 @@ fn compare(name: &str, computed: &Computed, exact: &Body, outer: &[HalfSpace], s
     let points: Vec<ExactPoint> =
         computed.vertices().iter().map(|vertex| Homogeneous::from_position(vertex.to_array())).collect();
 
-    for plane in computed.planes() {
-        let violation = exact.violation(plane.to_row().to_array());
-        assert!(violation <= 0.0, "{name}: {violation:e} of the exact body is outside of {plane:?}");
-    }
-    assert!(exact.is_empty() || !computed.is_empty(), "{name}: computed as empty");
-    if !exact.is_empty() {
-        for facet in facets(&points) {
-            for vertex in &exact.vertices {
-                let lost = outside(&facet, &vertex.point);
-                assert!(
-                    lost <= 0.0,
-                    "{name}: an exact vertex is {lost:e} outside of the hull of the computed ones"
-                );
-            }
-        }
+    if let Some(loss) = losses(&Shape::of(computed), exact).first() {
+        panic!("{name}: {loss}");
     }
 
     for HalfSpace { plane, bound } in outer {
@@ -276,7 +290,7 @@ fn cull(name: &str, computed: &Computed, exact: &Body) {
 }
 
 /// Compares the three bodies of a case.
-fn check(case: &Case, figures: &mut [Figures; 3]) {
+pub(crate) fn check(case: &Case, figures: &mut [Figures; 3]) {
     let Some(input) = Input::of(case) else { return };
     let (view, light) = case.build();
     let store = case.scene.store();
