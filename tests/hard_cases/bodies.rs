@@ -63,8 +63,8 @@ fn row_17_nothing_to_be_seen() {
                 assert!(visible.is_empty() && body.is_empty() && visible.bounds().is_none());
             }
             Outcome::Map(map) => {
-                // In doubt bodies grow: by 48 roundings of terms of 20 (`Plane::loosened`).
-                assert!(by <= -1.0 + 48.0 * f64::EPSILON * 40.0, "{by:e} out of view");
+                // In doubt bodies grow: by 96 ε of terms of 20 (`Plane::loosened`).
+                assert!(by <= -1.0 + 96.0 * f64::EPSILON * 40.0, "{by:e} out of view");
                 assert!(map.matrix().is_finite());
             }
             other @ Outcome::Surrounded(_) => panic!("{other:?}"),
@@ -76,7 +76,7 @@ fn row_17_nothing_to_be_seen() {
         let spot = Light::spot((5.0 - begins + by, 0.0, -10.0), DVec3::X, 0.2, 0.125, 100.0).expect("sound");
         let (visible, _, outcome) = fit(&spot, -50.0);
         // Closer than that, roundings decide.
-        if by.abs() > 48.0 * f64::EPSILON * 100.0 {
+        if by.abs() > 96.0 * f64::EPSILON * 100.0 {
             assert_eq!(visible.is_empty(), by > 0.0, "{by:e}");
         }
         if visible.is_empty() {
@@ -241,8 +241,8 @@ fn row_23_one_inside_the_other_and_equal_ones() {
     let cube = View::orthographic(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 2.0, 1.0, -2.0, 2.0).expect("sound");
     let corners = |view: &View| view.corners().expect("finite");
     let of = |min: f64, max: f64| (DVec3::splat(min), DVec3::splat(max));
-    // Planes stand 48 roundings of terms of three times 400 outwards, and meet at more than half of a right angle.
-    let beyond = 2.0 * 48.0 * f64::EPSILON * 1200.0;
+    // Planes stand 96 ε of terms of three times 400 outwards, and meet at more than half of a right angle.
+    let beyond = 2.0 * 96.0 * f64::EPSILON * 1200.0;
     for (view, (min, max), volume) in [
         // The frustum inside the box: a pyramid's frustum between 1 and 100.
         (&frustum, of(-400.0, 400.0), 4.0 * 1.5 * frustum.half_height(1.0).powi(2) * (1e6 - 1.0) / 3.0),
@@ -307,8 +307,8 @@ fn row_24_scenes_of_every_scale() {
             let shape = |body: &Body| (body.vertices().len(), body.faces().count(), body.edges().count());
             assert_eq!(shape(&scaled), shape(&usual), "{scale:e}");
             for (vertex, expected) in scaled.vertices().iter().zip(usual.vertices()) {
-                // Vertices where planes meet at a tenth move ten times as far as the planes, 48 roundings of terms of 300.
-                let allowed = 2.0 * 48.0 * f64::EPSILON * 300.0 * 10.0;
+                // Vertices where planes meet at a tenth move ten times as far as the planes, 96 ε of terms of 300.
+                let allowed = 2.0 * 96.0 * f64::EPSILON * 300.0 * 10.0;
                 assert!((*vertex / scale - *expected).length() <= allowed, "{scale:e}: {vertex} {expected}");
             }
         }

@@ -40,7 +40,8 @@ fn row_01_light_in_the_image_plane() {
             let light = make(DVec3::new(30.0, 40.0, z));
             assert_eq!(classify(&view, &light).kind, ClassKind::Directional);
             let map = at(z);
-            assert_eq!(map.weakening(), 0.0);
+            // The warp has just the ratio that it may have, but for rounding.
+            assert!(map.weakening() <= f64::EPSILON, "{:e}", map.weakening());
             let w = map.shadow_from_world().row(3);
             let points = visible(&view, &light, &scene);
             let ratio = |p: DVec3| w.dot(p.extend(1.0)) / view.depth(p);
