@@ -1,16 +1,19 @@
 //! The axis of a single frustum: the direction from a light that has everything visible in front of it by the widest
 //! margin.
 
+use crate::bounds::least;
 use glam::DVec3;
 
 /// The unit direction g that maximises the least `g · u` over unit directions, and that least value: the cosine of half
 /// the opening of the narrowest cone around all of them, or nothing when they surround the light.
 ///
 /// It points to the point of their convex hull nearest to the origin (Wolfe 1976), and depends on the directions
-/// continuously.
+/// continuously. Lengths decide nothing on the way: next to the nearest point they stay the same to second order, and
+/// roundings of them would leave half of its digits to chance. How far a direction is beyond a supporting plane is of
+/// first order.
 pub(crate) fn widest_margin(directions: &[DVec3]) -> Option<(DVec3, f64)> {
-    /// Each step adds one direction and shortens the distance to the hull, so that the steps end by themselves; this
-    /// only says that there is an end.
+    /// Each step adds one direction and shortens the distance to the hull, so that the steps end by themselves but for
+    /// rounding; this says that there is an end.
     const MAX_STEPS: usize = 64;
     let mut support = Support { points: [*directions.first()?; 3], len: 1 };
     let mut nearest = support.points[0];
@@ -21,7 +24,8 @@ pub(crate) fn widest_margin(directions: &[DVec3]) -> Option<(DVec3, f64)> {
             break;
         }
         let (next, closer) = support.with(deepest);
-        if closer.length_squared() >= nearest.length_squared() {
+        // The directions surround the origin: no face of three supports them.
+        if closer.length_squared() > nearest.length_squared() + 4.0 * f64::EPSILON {
             break;
         }
         (support, nearest) = (next, closer);
@@ -55,18 +59,21 @@ impl Support {
         self.points[..self.len].contains(&point)
     }
 
-    /// The nearest face among the point itself, the edges and the triangles that it spans with the corners.
+    /// The face among the point itself, the edges and the triangles that it spans with the corners whose foot of the
+    /// perpendicular from the origin supports them all, or is the least far from it.
     fn with(&self, point: DVec3) -> (Self, DVec3) {
-        let alone = Self { points: [point; 3], len: 1 };
-        let mut best = (alone, point);
+        let corners = &self.points[..self.len];
+        let mut best = (Self { points: [point; 3], len: 1 }, point);
+        let mut most = f64::NEG_INFINITY;
         let mut consider = |points: [DVec3; 3], len: usize, nearest: Option<DVec3>| {
-            if let Some(nearest) = nearest
-                && nearest.length_squared() < best.1.length_squared()
-            {
-                best = (Self { points, len }, nearest);
+            let Some(nearest) = nearest else { return };
+            let beyond = |corner: &DVec3| (*corner - nearest).dot(nearest);
+            let supported = corners.iter().map(beyond).fold(beyond(&point), least);
+            if supported > most {
+                (best, most) = ((Self { points, len }, nearest), supported);
             }
         };
-        let corners = &self.points[..self.len];
+        consider([point; 3], 1, Some(point));
         for (index, &a) in corners.iter().enumerate() {
             consider([point, a, a], 2, nearest_of_edge(point, a));
             for &b in &corners[index + 1..] {

@@ -75,18 +75,16 @@ impl<'a> Focus<'a> {
                 focus.receivers = Some(Region::Convex(body));
                 focus.casters = focus.receivers;
             }
-            Bounds::Lists { casters, receivers } => focus.gather(casters, receivers),
+            Bounds::Lists { casters, receivers, extent } => focus.gather(casters, receivers, extent),
         }
         focus
     }
 
-    /// Bounds, from the lists, the receivers that can be visible and lit, then the casters that can touch those.
-    fn gather(&mut self, casters: &[Aabb], receivers: &[Aabb]) {
+    /// Bounds, from the lists, the receivers that can be visible and lit, then the casters, with coordinates no larger than
+    /// `extent`, that can touch those.
+    fn gather(&mut self, casters: &[Aabb], receivers: &[Aabb], extent: DVec3) {
         let lit_view = || self.view_planes.iter().chain(self.light_planes.iter()).copied();
         self.receivers = union(receivers, lit_view);
-        // What casts stands between the receivers and the light.
-        let extent = self.receivers.map_or(DVec3::ZERO, |region| region.extent());
-        let extent = extent.max(self.light.position().unwrap_or(DVec3::ZERO).abs());
         if let Some(hull) = self.hull_of_visible(extent) {
             self.casters = union(casters, || hull.iter().chain(self.light_planes.iter()).copied());
         }
@@ -227,6 +225,12 @@ pub(crate) fn farthest_corner(min: DVec3, max: DVec3, direction: DVec3) -> DVec3
 /// walk around the silhouette, point and directional lights alike. Both factors are positive, so that the sum contains
 /// the body whatever rounding did to them: a light in the plane of a face, on an edge, or at the eye of a frustum needs
 /// no care.
+///
+/// It contains the hull if it passes l too, and what counts there is how exact the factors are in themselves. A factor
+/// that is off by ρ of itself moves the sum at a point Y by no more than ρ times its term at Y; one off by so much in
+/// absolute terms turns the sum about the edge, which may be as far from Y as the far plane is, and misses Y by any
+/// amount. So the values are [right to a few roundings of themselves](Plane::exactly_on), and the slack that each plane
+/// brings along covers them at Y; where a sum of planes cancels, their slack does not.
 #[derive(Clone, Debug)]
 struct PlaneList {
     planes: [Plane; Self::MAX],
@@ -293,32 +297,27 @@ impl PlaneList {
         }
         let mut hull = Self::EMPTY;
         let (planes, used) = body.plane_table();
-        let planes = &planes.map(|plane| with_value(plane, l, extent));
+        let mut with_values = [(Plane::ONE, 0.0); Polyhedron::MAX_PLANES];
         let (mut towards, mut away) = (0_u64, 0_u64);
         for bit in Bits(used) {
-            let (plane, value) = planes[bit];
+            let (plane, value) = with_value(planes[bit], l, extent);
+            with_values[bit] = (plane, value);
             towards |= u64::from(value > 0.0) << bit;
             away |= u64::from(value < 0.0) << bit;
             if value >= 0.0 && !known.contains(&(bit as PlaneId)) {
                 hull.push(plane);
             }
         }
-        let bound = hull.len;
-        hull.push_silhouettes(planes, towards, away, |i, j| body.meet(i, j));
         // A segment's ends have no edge in common, and bound its hull with a light in line with it all the same.
-        if hull.len == bound {
-            hull.push_silhouettes(planes, towards, away, |_, _| true);
-        }
+        let is_segment = body.vertices().len() == 2;
+        hull.push_silhouettes(&with_values, towards, away, |i, j| is_segment || body.meet(i, j));
         Some(hull)
     }
 }
 
 /// A plane, moved outwards by what rounding can do inside of `extent`, and its value at l before that.
-///
-/// Where a sum of planes cancels, the roundings of its terms do not: each brings its own slack along. And the sum passes
-/// l by that slack, as it passes the body.
 fn with_value(plane: Plane, l: DVec4, extent: DVec3) -> (Plane, f64) {
-    (plane.loosened(extent), plane.on(l))
+    (plane.loosened(extent), plane.exactly_on(l))
 }
 
 impl core::ops::Deref for PlaneList {

@@ -66,8 +66,9 @@ impl Light {
 
     /// A light at a position that shines all around.
     ///
-    /// `near` is the distance from the light within which nothing casts a shadow (the lamp's own bulb and shade),
-    /// `range` the distance it reaches, both in world units; `range` may be infinite.
+    /// `near` is the distance from the light within which nothing need cast a shadow (the lamp's own bulb and shade): a map
+    /// may hold what is nearer or not, since a frustum begins at a plane. `range` is the distance the light reaches. Both are
+    /// in world units; `range` may be infinite.
     ///
     /// # Errors
     ///

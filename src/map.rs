@@ -23,7 +23,7 @@ use glam::{DMat4, DVec2, DVec3, Mat4};
 ///
 /// - every point of R and of H, taken through the f32 matrix in f32, lies inside the clip volume, and R keeps the border
 ///   of the settings from its sides. There are three exceptions: a point where f32 loses half of w or more, as next to a
-///   lamp of millimetres a thousand kilometres from the origin, is anywhere; a caster so near to a light at a position that f32 cannot
+///   lamp of millimetres a thousand kilometres from the origin in [`Origin::World`], is anywhere; a caster so near to a light at a position that f32 cannot
 ///   tell where it stands to within a thousandth of the window may be off by its rounding; and where casters and
 ///   receivers have lists of their own, a receiver may be nearer to the light than the first caster, and is lit;
 /// - points on a ray from the light share their (x, y), and depth grows away from the light: the test is 'less', or
@@ -182,6 +182,11 @@ impl Map {
 
     /// Aliasing at a point: the longer side of a texel's footprint over the side of a pixel's, both across their rays.
     /// At 1 a texel is as large as a pixel, above it is larger and shows. `None` outside of the map.
+    ///
+    /// On a surface a texel is stretched by 1/cos of the angle between its normal and the light, and a pixel by 1/cos of
+    /// that between its normal and the view, so that what is seen there is this times cos(view, normal)/cos(light, normal).
+    /// Stamminger & Drettakis (2002, §1.1) have that factor in their formula; the words beside it call β the angle between
+    /// light and normal, which contradicts it.
     #[must_use]
     pub fn aliasing(&self, point: DVec3) -> Option<f64> {
         let pixel = self.pixel_size(point);

@@ -112,8 +112,8 @@ impl Rays {
     }
 }
 
-/// Roundings between a vertex and the exact one, see [`Plane::loosened`].
-const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
+/// What a vertex may be away from the exact one where its planes meet squarely: their slack, and its roundings.
+const ROUNDINGS: f64 = 2.0 * Plane::SLACK;
 
 /// A linear function of `(U, V, 1)` on the chart.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -31,9 +31,17 @@ pub struct Scene<'a> {
 /// The forms that a scene's bounds come in.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Bounds<'a> {
-    Box { min: DVec3, max: DVec3 },
+    Box {
+        min: DVec3,
+        max: DVec3,
+    },
     Convex(&'a ConvexScene),
-    Lists { casters: &'a [Aabb], receivers: &'a [Aabb] },
+    /// With the largest absolute coordinates of the casters.
+    Lists {
+        casters: &'a [Aabb],
+        receivers: &'a [Aabb],
+        extent: DVec3,
+    },
 }
 
 impl<'a> Scene<'a> {
@@ -70,7 +78,13 @@ impl<'a> Scene<'a> {
                     .map_err(|error| InputError { field, ..error })?;
             }
         }
-        Ok(Self { bounds: Bounds::Lists { casters, receivers } })
+        Ok(Self::of_checked(casters, receivers))
+    }
+
+    /// The same as [`Self::new`] for boxes that are known to be sound, and for no boxes at all.
+    pub(crate) fn of_checked(casters: &'a [Aabb], receivers: &'a [Aabb]) -> Self {
+        let extent = casters.iter().fold(Vec3::ZERO, |extent, one| extent.max(one.min.abs()).max(one.max.abs()));
+        Self { bounds: Bounds::Lists { casters, receivers, extent: extent.as_dvec3() } }
     }
 }
 

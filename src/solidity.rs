@@ -71,7 +71,9 @@ impl Solidity {
     /// is loaded. Moving, turning and scaling a mesh changes nothing; mirroring it exchanges [`Self::Solid`] and
     /// [`Self::InsideOut`].
     ///
-    /// A part that crosses itself or another is taken for what its winding says.
+    /// A part that crosses itself or another is taken for what its winding says. Every triangle counts: one that is there
+    /// twice, or one without area that hangs on an edge, leaves edges that do not close. Files have such triangles, and who
+    /// loads them does well to drop them first.
     ///
     /// # Errors
     ///
@@ -103,7 +105,7 @@ impl Solidity {
         let mut corners = Vec::with_capacity(3 * triangles.len());
         for &index in triangles.iter().flatten() {
             let Some(&position) = positions.get(index as usize) else {
-                return check::fail("triangles", Problem::TooLarge);
+                return check::fail("triangles", Problem::OutOfRange);
             };
             let position: DVec3 = position.into();
             if !position.is_finite() {
@@ -225,7 +227,8 @@ impl Faces {
         let of = |other: DVec3| {
             if first == DVec3::ZERO || other == DVec3::ZERO { 0.0 } else { (first + other).length() }
         };
-        others.iter().map(|side| of(normal(side))).fold(0.0, f64::max)
+        // Unit but for rounding.
+        others.iter().map(|side| of(normal(side))).fold(0.0, f64::max).min(2.0)
     }
 
     /// The parts that share no vertex.

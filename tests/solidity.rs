@@ -206,7 +206,7 @@ fn what_is_no_mesh_is_refused() {
     let refused = |field, problem| Err(InputError { field, problem });
     let square = [DVec3::ZERO, DVec3::X, DVec3::Y];
     assert_eq!(Solidity::of(&square, &[]), refused("triangles", Problem::Empty));
-    assert_eq!(Solidity::of(&square, &[[0, 1, 3]]), refused("triangles", Problem::TooLarge));
+    assert_eq!(Solidity::of(&square, &[[0, 1, 3]]), refused("triangles", Problem::OutOfRange));
     let broken = [DVec3::ZERO, DVec3::X, DVec3::new(0.0, f64::NAN, 0.0)];
     assert_eq!(Solidity::of(&broken, &[[0, 1, 2]]), refused("positions", Problem::NotFinite));
     let far = [DVec3::ZERO, DVec3::X, DVec3::Y * 2.0 * MAX_COORDINATE];

@@ -2,6 +2,7 @@
 
 mod bits;
 mod body;
+mod exact;
 mod plane;
 mod polyhedron;
 

@@ -36,9 +36,31 @@ pub(crate) struct Vertex {
 /// - A vertex exactly on a clip plane counts as inside, which is what moving the plane outwards by an infinitesimal
 ///   would do. Every vertex is therefore on three planes, `F` planes have at most `2F − 4` vertices, and flat bodies,
 ///   segments and points are ordinary bodies with coincident vertices.
-/// - Rounding can at worst classify vertices near the clip plane in a way that no plane could. A face's outline is a
-///   closed walk all the same and crosses an even number of times, so that every new vertex finds its neighbours.
 /// - Only comparisons with zero decide, no tolerance: scaling everything by a power of two changes no decision.
+/// - The hull of the vertices holds every point that is in the box and inside all planes, before those were
+///   [loosened](Plane::loosened), exactly.
+///
+/// # Why nothing is lost
+///
+/// Vertices are rounded, so that four of a face are in no one plane, and rounding may classify some near a clip plane in
+/// a way that no plane could. The hull holds what it must all the same. Let p be a point inside the box and all planes.
+///
+/// The edges on a plane form closed walks, for each vertex on it has two of them: so it is for a box, and a cut keeps it
+/// so, since a closed walk crosses from inside to outside an even number of times and the new vertices on a plane are
+/// joined in pairs. Any surface Σ that spans the walks of each plane is therefore closed, and p is inside of it if Σ
+/// goes around p an odd number of times. It does for the box. What a cut changes comes in closed pieces:
+///
+/// - for each plane, its walks before, its walks after, and those of what was cut off. All their vertices are on that
+///   plane, and by [`Plane::loosened`] outside of it in truth, where p is not;
+/// - the walks that were cut off and those on the clip plane. Their vertices were found outside of the loosened clip
+///   plane, or made on it, and are outside of the plane in truth, where p is not.
+///
+/// Half-spaces are convex, so that each piece can be spanned in one without p, and goes around p not at all. Hence Σ goes
+/// around p oddly after every cut, and a closed surface whose vertices had p outside of their hull would not.
+///
+/// (On the box itself vertices are on their planes exactly. A point p on its boundary is the limit of points in its
+/// interior, the slack being more than none; and along an axis on which a box is flat all vertices keep one coordinate
+/// exactly, so that it may be thought to have any extent there.)
 #[derive(Clone, Debug)]
 pub(crate) struct Polyhedron {
     vertices: [Vertex; Self::MAX_VERTICES],
@@ -136,10 +158,10 @@ impl Polyhedron {
                 }
                 let Some(slot) = free.next() else { return };
                 let above = &mut self.vertices[inner];
-                let t = self.values[inner] / (self.values[inner] - self.values[outer & LAST]);
-                let position = above.position + (below.position - above.position) * t;
-                above.replace_neighbour(outer as u8, slot as u8);
                 let (p, q) = (below.planes[(k + 1) % 3], below.planes[(k + 2) % 3]);
+                above.replace_neighbour(outer as u8, slot as u8, [p, q]);
+                let position =
+                    between((above.position, self.values[inner]), (below.position, self.values[outer & LAST]));
                 // Its own neighbour until it finds another: no edge at all.
                 let mut neighbours = [inner as u8, slot as u8, slot as u8];
                 // The edge that lies on p and the clip plane is across from q, and the other way round.
@@ -173,17 +195,24 @@ impl Polyhedron {
 }
 
 impl Vertex {
-    /// One neighbour gives way to another. Two edges to the same neighbour are told apart by being replaced once.
-    fn replace_neighbour(&mut self, old: u8, new: u8) {
-        let [a, b, c] = &mut self.neighbours;
-        if *a == old {
-            *a = new;
-        } else if *b == old {
-            *b = new;
-        } else if *c == old {
-            *c = new;
+    /// A neighbour along the edge on the planes `p` and `q` gives way to another. It may be a neighbour along a second
+    /// edge too.
+    fn replace_neighbour(&mut self, old: u8, new: u8, [p, q]: [PlaneId; 2]) {
+        for (neighbour, across) in self.neighbours.iter_mut().zip(self.planes) {
+            if *neighbour == old && across != p && across != q {
+                *neighbour = new;
+            }
         }
     }
+}
+
+/// Where a function that has opposite signs at the ends of an edge is zero. From the nearer end, so that rounding moves
+/// it off the edge by no more than three roundings of the largest coordinates.
+fn between((a, at_a): (DVec3, f64), (b, at_b): (DVec3, f64)) -> DVec3 {
+    let from = |(near, at_near): (DVec3, f64), (far, at_far): (DVec3, f64)| {
+        near + (far - near) * (at_near / (at_near - at_far))
+    };
+    if at_a.abs() <= at_b.abs() { from((a, at_a), (b, at_b)) } else { from((b, at_b), (a, at_a)) }
 }
 
 /// The last slot. Slots and planes are below 64, which indexing with this mask makes plain to the compiler.

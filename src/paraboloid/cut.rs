@@ -24,6 +24,7 @@
 
 use super::Paraboloid;
 use crate::angle;
+use core::f64::consts::FRAC_PI_2;
 use glam::{DVec2, DVec3};
 
 impl Paraboloid {
@@ -47,7 +48,7 @@ impl Paraboloid {
         const MOST: f64 = 0.146_446_609_406_726_24;
         let square = (0.5 * texels / self.texels_per_unit()).clamp(0.0, MOST);
         let [cosine, sine] = DVec2::new(1.0 - square, square).sqrt().to_array();
-        if square > 0.0 { 4.0 * angle::of_vector(cosine, sine) } else { 0.0 }
+        if square > 0.0 { (4.0 * angle::of_vector(cosine, sine)).min(FRAC_PI_2) } else { 0.0 }
     }
 
     /// How far the depths that are drawn along a straight edge from `a` to `b`, both in the hemisphere, can be from those of

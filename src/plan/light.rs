@@ -11,7 +11,7 @@ use crate::filter::Filter;
 use crate::fit::{Empty, Outcome};
 use crate::focus::{Focus, Form};
 use crate::light::Light;
-use crate::scene::{Aabb, Bounds, Scene};
+use crate::scene::{Aabb, Scene};
 use crate::second_depth::DepthTest;
 use crate::settings::{Settings, Shift, Warp};
 use crate::solidity::Solidity;
@@ -115,7 +115,7 @@ impl Planner<'_> {
         if reach.casters.is_empty() {
             return LightPlan::nothing(Reason::NothingCasts);
         }
-        let scene = Scene { bounds: Bounds::Lists { casters: &reach.casters, receivers: &reach.receivers } };
+        let scene = Scene::of_checked(&reach.casters, &reach.receivers);
         let focus = Focus::new(&self.seen.view, light, &scene);
         let mut points = points(&focus, &reach.receivers);
         if points.is_empty() {
@@ -278,7 +278,7 @@ impl Planner<'_> {
         let Reach { receivers, casters: boxes, ids } = reach;
         let body = match &projection {
             Projection::Face(_, map) => {
-                let scene = Scene { bounds: Bounds::Lists { casters: boxes, receivers } };
+                let scene = Scene::of_checked(boxes, receivers);
                 Focus::new(&self.seen.view, &map.light, &scene).body(Form::Tight)
             }
             _ => focus.body(Form::Tight),

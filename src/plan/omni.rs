@@ -8,7 +8,7 @@ use crate::cube::CubeFace;
 use crate::fit::Empty;
 use crate::focus::Focus;
 use crate::paraboloid::{Paraboloid, Paraboloids};
-use crate::scene::{Aabb, Bounds, Scene};
+use crate::scene::{Aabb, Scene};
 use glam::DVec3;
 use std::vec::Vec;
 
@@ -92,7 +92,7 @@ impl Planner<'_> {
         let (mut projections, mut aliasing) = (Vec::new(), 0.0_f64);
         for face in CubeFace::ALL {
             let Ok(light) = focus.light().cube_face(face, overlap) else { continue };
-            let scene = Scene { bounds: Bounds::Lists { casters: &reach.casters, receivers: &reach.receivers } };
+            let scene = Scene::of_checked(&reach.casters, &reach.receivers);
             let part = Focus::new(focus.view(), &light, &scene);
             let seen: Vec<DVec3> =
                 points.iter().copied().filter(|point| CubeFace::of(point - position) == face).collect();
