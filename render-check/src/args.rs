@@ -324,6 +324,10 @@ pub struct SweepArgs {
     #[arg(value_name = "GROUP")]
     pub groups: Vec<String>,
 
+    /// Instead of the groups: a lamp that goes through every object of this scene, at the middle of its largest triangle
+    #[arg(long, value_name = "SCENE", conflicts_with = "groups")]
+    pub through: Option<PathBuf>,
+
     /// The directory for sweep.json, made where it is missing
     #[arg(long, value_name = "DIR", default_value = "out/sweep")]
     pub out: PathBuf,

@@ -17,7 +17,7 @@ use crate::picture::{Lighting, aliasing_map, difference, save, shaded, side_by_s
 use crate::progress::bar;
 use crate::report::{self, CameraReport, RunReport};
 use crate::run::{MapRun, Options, run};
-use crate::scene::Mesh;
+use crate::scene::{LeftOut, Mesh};
 use crate::stage::{Stage, StageLight};
 
 /// All that is known after a check.
@@ -25,6 +25,8 @@ use crate::stage::{Stage, StageLight};
 pub struct CheckReport {
     /// The scene's name.
     pub scene: String,
+    /// What was left out of it.
+    pub left_out: LeftOut,
     /// What drew it.
     pub adapter: String,
     /// Width and height of the camera's image, in pixels.
@@ -80,6 +82,7 @@ pub fn check(args: &CheckArgs) -> Result<()> {
 
     let report = CheckReport {
         scene: scene.name,
+        left_out: scene.left_out,
         adapter: gpu.name().to_owned(),
         image: stage.size,
         camera: CameraReport::from(&view),

@@ -32,7 +32,7 @@ impl FittedMap {
     /// Fits a frustum as a renderer does and culls the casters against H; or says why there is no map.
     fn new(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
         let focus = Focus::new(&stage.fitted_view, light, &stage.bounds);
-        let map = match map_or_reason(focus.fit(&options.settings(stage.size[1])?)) {
+        let map = match map_or_reason(focus.fit(&options.settings(stage)?)) {
             Ok(map) => Layout::Frustum(map),
             Err(none) => return Ok(Err(none)),
         };
@@ -116,7 +116,7 @@ impl FittedMaps {
 
     fn paraboloids(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
         let focus = Focus::new(&stage.fitted_view, light, &stage.bounds);
-        let settings = options.settings(stage.size[1])?;
+        let settings = options.settings(stage)?;
         let fitted = focus.paraboloids(&settings);
         let split = match &fitted {
             Paraboloids::Empty(empty) => return Ok(Err(NoMap::Empty(*empty))),

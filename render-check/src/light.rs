@@ -60,6 +60,18 @@ impl LightSpec {
         }
     }
 
+    /// The same light elsewhere: `moved` takes its position, and what it is aimed at, to where they are to be.
+    #[must_use]
+    pub fn with_position(&self, moved: impl Fn(DVec3) -> DVec3) -> Self {
+        match *self {
+            Self::Sun { .. } => *self,
+            Self::Point { position, range } => Self::Point { position: moved(position), range },
+            Self::Spot { position, target, cone_degrees, range } => {
+                Self::Spot { position: moved(position), target: moved(target), cone_degrees, range }
+            }
+        }
+    }
+
     /// The light as `shadowfit` takes it. `near` is the distance from a lamp at which its shadow map begins, in
     /// world units; a sun has none.
     ///

@@ -9,6 +9,7 @@ use shadowfit::View;
 use shadowfit::glam::DVec3;
 
 use crate::args::ViewArgs;
+use crate::fitting::lamp_near;
 use crate::framing::{Camera, choose_camera, choose_view};
 use crate::light::LightSpec;
 use crate::progress::spinner;
@@ -89,11 +90,22 @@ pub fn place_camera(args: &ViewArgs, scene: &LoadedScene, tracer: &Tracer<'_>) -
     Ok((camera, view))
 }
 
-/// The lights that the arguments ask for; else the scene's own; else a sun.
+/// The lights that the arguments ask for; else those of the scene's own that can be used; else a sun. Says which cannot.
 #[must_use]
 pub fn choose_lights(args: &ViewArgs, scene: &LoadedScene) -> Vec<LightSpec> {
-    let asked_for = [&args.lights, &scene.lights].into_iter().find(|lights| !lights.is_empty());
-    asked_for.cloned().unwrap_or_else(|| vec![DEFAULT_SUN])
+    if !args.lights.is_empty() {
+        return args.lights.clone();
+    }
+    let near = args.lamp_near.unwrap_or_else(|| lamp_near(&scene.mesh));
+    let is_usable = |light: &LightSpec| match light.to_light(near) {
+        Ok(_) => true,
+        Err(error) => {
+            complain(&format!("warning: left out: {error:#}"));
+            false
+        }
+    };
+    let usable: Vec<LightSpec> = scene.lights.iter().copied().filter(is_usable).collect();
+    if usable.is_empty() { vec![DEFAULT_SUN] } else { usable }
 }
 
 /// Prints a line. Nobody listening (`render-check | head`) is no reason to leave the work undone.

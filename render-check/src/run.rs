@@ -5,7 +5,7 @@ use std::time::Duration;
 use anyhow::{Context, Result};
 use serde::Serialize;
 use shadowfit::glam::DVec3;
-use shadowfit::{DepthFormat, Origin, Settings};
+use shadowfit::{DepthFormat, Settings};
 
 use crate::args::ClipArg;
 use crate::cut::Cutting;
@@ -89,10 +89,10 @@ impl Options {
     /// # Errors
     ///
     /// When the sizes cannot be used, or the border leaves no room.
-    pub fn settings(&self, image_height: u32) -> Result<Settings> {
-        let settings = Settings::new(self.map_size, image_height).context("the sizes cannot be used")?;
+    pub fn settings(&self, stage: &Stage<'_>) -> Result<Settings> {
+        let settings = Settings::new(self.map_size, stage.size[1]).context("the sizes cannot be used")?;
         let settings = settings.with_border(self.border()).context("the filter is too wide for so small a map")?;
-        Ok(self.technique.settings(settings).with_clip(self.clip.into()).with_origin(Origin::Eye))
+        Ok(self.technique.settings(settings).with_clip(self.clip.into()).with_origin(stage.origin))
     }
 }
 
@@ -146,7 +146,7 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
         Ok(fitted) => fitted,
         Err(none) => return Ok(Err(none)),
     };
-    let settings = options.settings(stage.size[1])?;
+    let settings = options.settings(stage)?;
     let fit_all = || fitted.fit_again(stage, &settings);
     // A fit takes a few hundred times less than a frame.
     let fit_time = median_time(300 * options.frames as usize - 299, fit_all);

@@ -1,7 +1,8 @@
 //! One camera before one scene: what all lights and all techniques share.
 
 use anyhow::Result;
-use shadowfit::{Light, Scene, View};
+use shadowfit::glam::DVec3;
+use shadowfit::{Light, Origin, Scene, View};
 
 use crate::fitting::{lamp_near, scene_box};
 use crate::gpu::{Geometry, Gpu, Surfaces};
@@ -23,7 +24,9 @@ pub struct Stage<'a> {
     pub fitted_view: View,
     /// Width and height of its image, in pixels.
     pub size: [u32; 2],
-    /// The triangles on the card, relative to the camera's eye.
+    /// What the maps' matrices take positions relative to.
+    pub origin: Origin,
+    /// The triangles on the card that maps are drawn of, relative to that.
     pub geometry: Geometry,
     /// What the camera sees.
     pub surfaces: Surfaces,
@@ -41,7 +44,30 @@ impl<'a> Stage<'a> {
         let geometry = Geometry::upload(gpu, tracer.mesh(), view.eye())?;
         let surfaces = Surfaces::draw(gpu, &geometry, view, size)?;
         let (bounds, lamp_near) = (scene_box(tracer.mesh())?, lamp_near(tracer.mesh()));
-        Ok(Self { gpu, tracer, bounds, view: *view, fitted_view: *view, size, geometry, surfaces, lamp_near })
+        let origin = Origin::Eye;
+        Ok(Self {
+            gpu,
+            tracer,
+            bounds,
+            view: *view,
+            fitted_view: *view,
+            size,
+            origin,
+            geometry,
+            surfaces,
+            lamp_near,
+        })
+    }
+
+    /// The same with maps of positions in world space, as f32 has them there. What the camera sees stays what it is.
+    ///
+    /// # Errors
+    ///
+    /// When the card refuses.
+    pub fn in_world_space(self) -> Result<Self> {
+        let surfaces = Surfaces::draw_about(self.gpu, &self.geometry, &self.view, self.size, DVec3::ZERO)?;
+        let geometry = Geometry::upload(self.gpu, self.tracer.mesh(), DVec3::ZERO)?;
+        Ok(Self { origin: Origin::World, geometry, surfaces, ..self })
     }
 
     /// The same with maps that are fitted to what of the camera's depth something is seen in, read back from the card.

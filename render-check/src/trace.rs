@@ -160,6 +160,12 @@ impl<'a> Tracer<'a> {
         self.tree.cast_local_ray(&ray_to_parry(ray), ray.length, false).is_some()
     }
 
+    /// How far a ray that leaves a surface starts off it: nothing that a picture shows is so small.
+    #[must_use]
+    pub fn surface_offset(&self) -> f64 {
+        self.surface_offset
+    }
+
     /// Where a ray starts that leaves a surface at `point`: a hair off it, along the face's unit normal on the side that
     /// the ray leaves from, so that it meets neither the triangle it starts on nor one that lies in the same plane.
     #[must_use]

@@ -9,8 +9,8 @@ use shadowfit::glam::{DMat4, DVec3, DVec4};
 use super::pass::{Pass, PipelineKind, depth_state};
 use super::{Geometry, Gpu, read_back, shaders};
 
-/// The surface that each pixel of a camera's image shows: its position, relative to the geometry's origin, on the
-/// card, and which triangle it is, here.
+/// The surface that each pixel of a camera's image shows: its position on the card, relative to the origin of the geometry
+/// that maps are drawn of, and which triangle it is, here.
 pub struct Surfaces {
     pub(super) size: [u32; 2],
     pub(super) positions: wgpu::TextureView,
@@ -36,10 +36,20 @@ impl Surfaces {
     ///
     /// When the card refuses, as it does images larger than it can hold.
     pub fn draw(gpu: &Gpu, geometry: &Geometry, view: &View, size: [u32; 2]) -> Result<Self> {
-        gpu.guarded("the camera's view", || Self::draw_unguarded(gpu, geometry, view, size))
+        Self::draw_about(gpu, geometry, view, size, geometry.origin())
     }
 
-    fn draw_unguarded(gpu: &Gpu, geometry: &Geometry, view: &View, size: [u32; 2]) -> Result<Self> {
+    /// The same with the positions relative to another origin than the geometry's, rounded to f32 there: for maps that are
+    /// drawn of geometry about that one.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Self::draw`].
+    pub fn draw_about(gpu: &Gpu, geometry: &Geometry, view: &View, size: [u32; 2], origin: DVec3) -> Result<Self> {
+        gpu.guarded("the camera's view", || Self::draw_unguarded(gpu, geometry, view, size, origin))
+    }
+
+    fn draw_unguarded(gpu: &Gpu, geometry: &Geometry, view: &View, size: [u32; 2], origin: DVec3) -> Result<Self> {
         // Depth reversed in f32, which keeps far surfaces apart as well as near ones.
         let depth_format = wgpu::TextureFormat::Depth32Float;
         let formats = [wgpu::TextureFormat::Rgba32Float, wgpu::TextureFormat::R32Uint];
@@ -54,7 +64,8 @@ impl Surfaces {
         }
         .build(gpu);
         let from_origin = DMat4::from_translation(geometry.origin());
-        let camera = gpu.uniforms(&[(reversed_clip_from_world(view) * from_origin).as_mat4()]);
+        let to_tested = DMat4::from_translation(geometry.origin() - origin);
+        let camera = gpu.uniforms(&[(reversed_clip_from_world(view) * from_origin).as_mat4(), to_tested.as_mat4()]);
         let [(_, positions), (triangles, triangles_view)] = formats.map(|format| gpu.target(size, format));
         let (_, depths) = gpu.target(size, depth_format);
         let pass = Pass {

@@ -188,11 +188,9 @@ impl Loader<'_> {
             Some(indices) => read_indices(&indices, self.binary).context("indices")?,
             None => (0..positions.len() as u32).collect(),
         };
-        if let Some(index) = indices.iter().find(|&&i| i as usize >= positions.len()) {
-            bail!("index {index} points beyond the {} vertices", positions.len());
-        }
         if mode == Mode::Points {
-            let points: Vec<DVec3> = indices.iter().map(|&i| positions[i as usize]).collect();
+            let points: Vec<DVec3> = indices.iter().filter_map(|&i| positions.get(i as usize).copied()).collect();
+            self.builder.left_out.points += indices.len() - points.len();
             self.builder.add_points(&points, colour, world_from_node);
             return Ok(());
         }
@@ -218,16 +216,17 @@ fn camera_lenses(file: &Gltf) -> Vec<Option<CameraLens>> {
         .collect()
 }
 
-/// A camera at a node looks along the node's −z axis; its up is +y.
+/// A camera at a node looks along the node's −z axis; its up is +y. `None` where no picture comes of it.
 fn camera_at(world_from_node: DMat4, (fov_y, near, far): CameraLens) -> Option<Camera> {
-    Some(Camera {
+    let camera = Camera {
         eye: world_from_node.w_axis.truncate(),
         forward: (-world_from_node.z_axis.truncate()).try_normalize()?,
         up: world_from_node.y_axis.truncate().try_normalize()?,
         fov_y,
         near: Some(near),
         far: Some(far),
-    })
+    };
+    camera.view(1.0, near, far).is_ok().then_some(camera)
 }
 
 /// A light at a node shines along the node's −z axis.

@@ -1,9 +1,10 @@
 //! Triangles in world space.
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use shadowfit::glam::{DMat3, DMat4, DVec3, Vec3};
-use shadowfit::{Solidity, Surface};
+use shadowfit::{MAX_COORDINATE, Solidity, Surface};
 
 use super::LeftOut;
 use super::cloud::{self, Disc};
@@ -106,7 +107,7 @@ pub struct Part<'a> {
     pub colour: [f32; 3],
 }
 
-/// Collects parts into one mesh and leaves out the triangles that no ray can meet.
+/// Collects parts into one mesh and leaves out, and counts, the triangles that no ray can meet or that no fit can take.
 #[derive(Debug, Default)]
 pub struct MeshBuilder {
     mesh: Mesh,
@@ -117,8 +118,33 @@ pub struct MeshBuilder {
 }
 
 impl MeshBuilder {
-    /// Adds a part. Triangles with an index beyond the positions must have been refused before.
+    /// Adds a part, whatever is wrong with it: what cannot be used is left out, and the rest is there.
     pub fn add(&mut self, part: &Part<'_>, world_from_part: DMat4) {
+        let triangles = self.usable(part);
+        self.append(&Part { triangles: &triangles, ..*part }, world_from_part);
+    }
+
+    /// The triangles of a part whose corners are there, each of them once. One that is there twice would be an edge with
+    /// too many faces to [`Solidity::of`], and its solid a sheet.
+    fn usable(&mut self, part: &Part<'_>) -> Vec<[u32; 3]> {
+        let mut seen = HashSet::new();
+        let mut usable = part.triangles.to_vec();
+        usable.retain(|triangle| triangle.iter().all(|&i| (i as usize) < part.positions.len()));
+        self.left_out.out_of_range += part.triangles.len() - usable.len();
+        let in_range = usable.len();
+        usable.retain(|triangle| {
+            // −0 becomes 0; the least corner comes first, wherever the triangle begins.
+            let mut corners = triangle.map(|i| part.positions[i as usize].to_array().map(|x| (x + 0.0).to_bits()));
+            let least = (0..3).min_by_key(|&corner| corners[corner]).unwrap_or(0);
+            corners.rotate_left(least);
+            seen.insert(corners)
+        });
+        self.left_out.twice += in_range - usable.len();
+        usable
+    }
+
+    /// Adds the triangles of a part that have corners in the world, and an area.
+    fn append(&mut self, part: &Part<'_>, world_from_part: DMat4) {
         let first = self.mesh.vertices.len() as u32;
         let first_triangle = self.mesh.triangles.len();
         self.mesh.vertices.extend(part.positions.iter().map(|&p| world_from_part.transform_point3(p)));
@@ -139,18 +165,24 @@ impl MeshBuilder {
         self.mesh.normals.resize(self.mesh.vertices.len(), Vec3::ZERO);
 
         // Triangles without area are of no use but for closing cracks.
-        let mut all_of_part = Vec::new();
+        let mut with_cracks_closed = Vec::new();
         for triangle in part.triangles {
             let mut corners = triangle.map(|i| first + i);
             // A mirroring node turns the winding round; the front must stay the front.
             if mirrored {
                 corners.swap(1, 2);
             }
-            all_of_part.push(corners);
             let [a, b, c] = corners.map(|i| self.mesh.vertices[i as usize]);
             if !(a.is_finite() && b.is_finite() && c.is_finite()) {
                 self.left_out.not_finite += 1;
-            } else if is_flat(a, b, c) {
+                continue;
+            }
+            if [a, b, c].iter().any(|corner| is_too_large(*corner)) {
+                self.left_out.too_large += 1;
+                continue;
+            }
+            with_cracks_closed.push(corners);
+            if is_flat(a, b, c) {
                 self.left_out.flat += 1;
             } else {
                 self.mesh.triangles.push(corners);
@@ -160,8 +192,16 @@ impl MeshBuilder {
         if first_triangle < self.mesh.triangles.len() {
             let (min, max) = self.mesh.bounds_of(first_triangle..self.mesh.triangles.len());
             let triangles = first_triangle as u32..self.mesh.triangles.len() as u32;
+            // What is drawn may be closed though a triangle without area hangs from it.
+            let drawn = &self.mesh.triangles[first_triangle..];
+            let report = Solidity::of(&self.mesh.vertices, &with_cracks_closed);
+            let report = match report {
+                Ok(report) if report.solidity == Solidity::Open && drawn.len() < with_cracks_closed.len() => {
+                    Solidity::of(&self.mesh.vertices, drawn)
+                }
+                report => report,
+            };
             // What cannot be told is drawn as a sheet is: from both sides.
-            let report = Solidity::of(&self.mesh.vertices, &all_of_part);
             let (solidity, surface) = report
                 .map_or((Solidity::Open, Surface::default()), |report| (report.solidity, Surface::from(&report)));
             self.mesh.objects.push(Object { triangles, min, max, solidity, surface });
@@ -171,7 +211,8 @@ impl MeshBuilder {
     /// Adds a cloud of points, which become discs.
     pub fn add_points(&mut self, points: &[DVec3], colour: [f32; 3], world_from_part: DMat4) {
         let points = points.iter().map(|&point| world_from_part.transform_point3(point));
-        let (finite, other): (Vec<DVec3>, Vec<DVec3>) = points.partition(|point| point.is_finite());
+        let (finite, other): (Vec<DVec3>, Vec<DVec3>) =
+            points.partition(|point| point.is_finite() && !is_too_large(*point));
         let mut discs = cloud::discs(&finite);
         discs.retain(|disc| {
             let corners = disc.hexagon();
@@ -197,7 +238,8 @@ impl MeshBuilder {
         let positions: Vec<DVec3> = discs.iter().flat_map(Disc::hexagon).collect();
         let of_disc = |first: u32| Disc::TRIANGLES.map(|triangle| triangle.map(|corner| first + corner));
         let triangles: Vec<[u32; 3]> = (0..discs.len() as u32).flat_map(|disc| of_disc(6 * disc)).collect();
-        self.add(&Part { positions: &positions, normals: &[], triangles: &triangles, colour }, DMat4::IDENTITY);
+        // Discs in one place are there as often as their points: each has its triangles.
+        self.append(&Part { positions: &positions, normals: &[], triangles: &triangles, colour }, DMat4::IDENTITY);
         if let Some(object) = self.mesh.objects.last_mut() {
             object.surface = Surface::Points;
         }
@@ -207,6 +249,11 @@ impl MeshBuilder {
 
 /// So many discs at most are culled and drawn as one.
 const DISCS_AN_OBJECT: usize = 1024;
+
+/// Whether a coordinate is beyond what a fit takes.
+fn is_too_large(point: DVec3) -> bool {
+    point.abs().max_element() > MAX_COORDINATE
+}
 
 /// Whether three points lie on a line, as far as coordinates of that size can tell: each edge is known to a few
 /// roundings of the largest coordinate, so the doubled area is known to that times the longest edge.

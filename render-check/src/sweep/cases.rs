@@ -5,10 +5,12 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use clap::ValueEnum as _;
 use shadowfit::glam::DVec3;
-use shadowfit::{DepthFormat, View};
+use shadowfit::{DepthFormat, Origin, View};
 
 use super::IMAGE;
+use super::faults::{far_off, faults};
 use super::lights::{NamedLight, lamps_through_the_plane, suns_across, through_the_back};
+use super::surfaces::through_surfaces;
 use crate::args::ClipArg;
 use crate::framing::{Camera, choose_view};
 use crate::gpu::{Filter, Points};
@@ -19,7 +21,7 @@ use crate::technique::Technique;
 use crate::trace::{Faces, Tracer};
 
 /// Texels a side of the maps, where their size is not what is swept.
-const MAP_SIZE: u32 = 512;
+pub(super) const MAP_SIZE: u32 = 512;
 
 /// Cases that belong together.
 pub struct Group {
@@ -37,6 +39,10 @@ pub struct Shot {
     pub scene: LoadedScene,
     /// The camera.
     pub view: View,
+    /// Width and height of the picture, in pixels.
+    pub image: [u32; 2],
+    /// What the maps' matrices take positions relative to.
+    pub origin: Origin,
     /// The lights, and what is special about them.
     pub lights: Vec<NamedLight>,
     /// The maps.
@@ -50,13 +56,13 @@ impl Shot {
         self.lights.len() * self.options.len()
     }
 
-    fn with_options(self, options: Vec<Options>) -> Self {
+    pub(super) fn with_options(self, options: Vec<Options>) -> Self {
         Self { options, ..self }
     }
 }
 
 /// All groups.
-pub const GROUPS: [Group; 18] = [
+pub const GROUPS: [Group; 21] = [
     Group { name: "classes-of-suns", shots: || Ok(vec![chess_board()?.shot("arc", suns_across)?]) },
     Group { name: "classes-of-lamps", shots: || Ok(vec![chess_board()?.shot("line", lamps_through_the_plane)?]) },
     Group { name: "through-the-back", shots: || Ok(vec![chess_board()?.shot("viewer's back", through_the_back)?]) },
@@ -81,6 +87,9 @@ pub const GROUPS: [Group; 18] = [
         name: "points",
         shots: || Ok(vec![Stand::built_in("cloud")?.own_lights("cloud")?.with_options(points())]),
     },
+    Group { name: "faults", shots: faults },
+    Group { name: "far-off", shots: far_off },
+    Group { name: "through-surfaces", shots: through_surfaces },
 ];
 
 fn chess_board() -> Result<Stand> {
@@ -92,17 +101,17 @@ fn lit_chess_board() -> Result<Shot> {
 }
 
 /// A camera in a scene, before its planes are chosen.
-struct Stand {
-    scene: LoadedScene,
+pub(super) struct Stand {
+    pub(super) scene: LoadedScene,
     camera: Camera,
 }
 
 impl Stand {
-    fn built_in(name: &str) -> Result<Self> {
+    pub(super) fn built_in(name: &str) -> Result<Self> {
         Self::before(scene::load(Path::new(name))?)
     }
 
-    fn before(scene: LoadedScene) -> Result<Self> {
+    pub(super) fn before(scene: LoadedScene) -> Result<Self> {
         let camera = scene.camera.with_context(|| format!("the scene '{}' has no camera", scene.name))?;
         Ok(Self { scene, camera })
     }
@@ -112,14 +121,15 @@ impl Stand {
         self
     }
 
-    fn shot(self, name: &str, lights: impl FnOnce(&View) -> Vec<NamedLight>) -> Result<Shot> {
+    pub(super) fn shot(self, name: &str, lights: impl FnOnce(&View) -> Vec<NamedLight>) -> Result<Shot> {
         let aspect = f64::from(IMAGE[0]) / f64::from(IMAGE[1]);
         let view = choose_view(&self.camera, aspect, &Tracer::new(&self.scene.mesh)?)?.0;
         let options = Technique::COMPARED.map(|technique| Options::new(technique, MAP_SIZE)).to_vec();
-        Ok(Shot { name: name.to_owned(), lights: lights(&view), scene: self.scene, view, options })
+        let (name, lights) = (name.to_owned(), lights(&view));
+        Ok(Shot { name, lights, scene: self.scene, view, image: IMAGE, origin: Origin::Eye, options })
     }
 
-    fn own_lights(self, name: &str) -> Result<Shot> {
+    pub(super) fn own_lights(self, name: &str) -> Result<Shot> {
         let lights = self.scene.lights.iter().map(|light| (light.kind().to_owned(), *light)).collect();
         self.shot(name, |_| lights)
     }

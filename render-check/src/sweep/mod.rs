@@ -1,13 +1,16 @@
 //! The hard cases, as small pictures of built-in scenes: drawn with every technique and held against the truth.
 
 mod cases;
+mod faults;
 mod lights;
+mod surfaces;
 
 use std::fmt;
 
 use anyhow::{Context, Result, ensure};
 use comfy_table::Table;
 use serde::Serialize;
+use shadowfit::Origin;
 
 pub use cases::{GROUPS, Group, Shot};
 
@@ -22,7 +25,7 @@ use crate::table::{self, percent};
 use crate::trace::Tracer;
 use crate::verdict::share;
 
-/// Width and height of the pictures, in pixels.
+/// Width and height of the pictures, in pixels, where a group has no need of smaller ones.
 pub const IMAGE: [u32; 2] = [240, 150];
 
 /// A run of a sweep.
@@ -37,6 +40,9 @@ pub struct SweepRun {
     pub run: RunReport,
 }
 
+/// What makes the cases of a group.
+type Shots<'a> = Box<dyn Fn() -> Result<Vec<Shot>> + 'a>;
+
 /// Sweeps over the groups that the arguments name, or over all.
 ///
 /// # Errors
@@ -44,20 +50,24 @@ pub struct SweepRun {
 /// When nothing can be drawn, with a message that says what to do; and when a caster is missing from a map.
 pub fn sweep(args: &SweepArgs) -> Result<()> {
     let is_asked_for = |name: &str| args.groups.is_empty() || args.groups.iter().any(|word| name.contains(word));
-    let groups: Vec<&Group> = GROUPS.iter().filter(|group| is_asked_for(group.name)).collect();
-    ensure!(!groups.is_empty(), "no group is called that: there are {}", GROUPS.map(|group| group.name).join(", "));
+    let groups = GROUPS.iter().filter(|group| args.through.is_none() && is_asked_for(group.name));
+    let mut cases: Vec<(&str, Shots)> = groups.map(|group| (group.name, Box::new(group.shots) as Shots)).collect();
+    if let Some(scene) = &args.through {
+        cases.push(("through-all", Box::new(|| surfaces::through_all_of(scene))));
+    }
+    ensure!(!cases.is_empty(), "no group is called that: there are {}", GROUPS.map(|group| group.name).join(", "));
     make_directory(&args.out)?;
     let gpu = Gpu::new()?;
     say(&format!("drawn by {}", gpu.name()));
 
     let mut runs = Vec::new();
     let mut summaries = Vec::new();
-    for group in groups {
-        let shots = (group.shots)()?;
-        let bar = bar(group.name, shots.iter().map(Shot::runs).sum());
-        let of_group = run_shots(&gpu, group.name, &shots, || bar.inc(1))?;
+    for (name, shots) in cases {
+        let shots = shots()?;
+        let bar = bar(name, shots.iter().map(Shot::runs).sum());
+        let of_group = run_shots(&gpu, name, &shots, || bar.inc(1))?;
         bar.finish_and_clear();
-        summaries.push(Summary::of(group.name, &of_group));
+        summaries.push(Summary::of(name, &of_group));
         runs.extend(of_group);
     }
     say(&overview(&summaries).to_string());
@@ -82,7 +92,11 @@ pub fn run_shots(gpu: &Gpu, group: &'static str, shots: &[Shot], done: impl Fn()
     let mut runs = Vec::new();
     for shot in shots {
         let tracer = Tracer::new(&shot.scene.mesh)?;
-        let stage = Stage::new(gpu, &tracer, &shot.view, IMAGE)?;
+        let stage = Stage::new(gpu, &tracer, &shot.view, shot.image)?;
+        let stage = match shot.origin {
+            Origin::Eye => stage,
+            Origin::World => stage.in_world_space()?,
+        };
         for (words, spec) in &shot.lights {
             let light = stage.light(*spec).with_context(|| format!("{group}: {}, {words}", shot.name))?;
             for options in &shot.options {

@@ -17,7 +17,7 @@
 use shadowfit::glam::DVec2;
 
 use super::surface::Surface;
-use super::{Comparison, Projection};
+use super::{Comparison, Illumination, Projection, Truth};
 
 /// How much farther out than the filter reads the truth is asked, in texels.
 const BEYOND: f64 = 0.5;
@@ -28,18 +28,22 @@ impl Comparison<'_> {
         let Some(place) = projection.place(receiver.point).map(|place| place.truncate()) else {
             return false;
         };
+        let here = if lit { Illumination::Lit } else { Illumination::Shadow };
         let changes_at = |place: DVec2| match projection.on_plane(receiver.point, receiver.normal, place) {
-            Some(point) => self.truth.source().is_shadowed(self.tracer, point, receiver.normal) == lit,
+            Some(point) => self.truth.source().illumination(self.tracer, point, receiver.normal) != here,
             None => true,
         };
         let reach = self.rendered.reach;
         around(place, reach + BEYOND).chain(centres_within(place, reach)).any(changes_at)
     }
 
-    /// Whether the truth changes from `lit`, which it is in the pixel at `index`, in one of the pixels around that are
-    /// compared too.
+    /// Whether the truth changes from `lit`, which it is in the pixel at `index`, in one of the pixels around that the
+    /// light could reach.
     pub(super) fn is_edge_in_pixels(&self, index: usize, lit: bool) -> bool {
-        self.truth.around(index).filter_map(|pixel| pixel.compared()).any(|(_, other)| other != lit)
+        self.truth.around(index).any(|pixel| match pixel {
+            Truth::Seen(_, Illumination::Either) => true,
+            _ => pixel.compared().is_some_and(|(_, other)| other != lit),
+        })
     }
 }
 

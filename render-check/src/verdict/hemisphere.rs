@@ -73,6 +73,16 @@ impl Projection for Hemisphere {
         if curved > 0.0 { distance / curved - distance } else { f64::INFINITY }
     }
 
+    /// An edge that is cut as it must be is so many texels long at most, over which the distance r from the light changes by
+    /// Δ. Between its ends distances are drawn as their arithmetic mean and not as the harmonic one, see
+    /// [`Paraboloid::edge_depth_error`]: too far by (r₂ − r₁)²/(√r₂ + √r₁)², which is no more than Δ²/r of any r between.
+    /// Where Δ is not less than r the plane is seen from its edge, and the edge may begin at the light.
+    fn bend(&self, depth: f64, slopes: DVec2) -> f64 {
+        let change = self.map.largest_edge(BENT) * self.scale() * slopes.element_sum();
+        let distance = depth + self.map.near() / (self.map.far() - self.map.near());
+        if change < distance { 4.0 / 3.0 * change * change / distance } else { f64::INFINITY }
+    }
+
     fn aliasing(&self, point: DVec3) -> f64 {
         self.map.aliasing(point).unwrap_or(f64::INFINITY)
     }

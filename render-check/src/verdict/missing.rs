@@ -7,7 +7,9 @@
 //! sixteenth of a texel off, so that a caster's edge close to the centre leaves no doubt of which side it is on. Each
 //! ends on the receiver's tangent plane. A caster is missing where all five meet drawn faces of one surface, where the
 //! farthest depth that these faces can have been stored with lies before the nearest depth of the receiver, and where the
-//! map yet holds a depth beyond that. One surface: the triangles touch the one that the centre's ray meets. Among leaves
+//! map yet holds a depth beyond that. It must lie before the receiver's own point, too: where the light grazes the receiver
+//! its tangent plane runs on behind other things within a texel, and what stands before it there, and beyond all that is
+//! seen, is rightly culled. One surface: the triangles touch the one that the centre's ray meets. Among leaves
 //! two may lie above each other with the edges of both at the centre, and a rasteriser sees between them.
 //!
 //! The farthest depth of a face is its depth plus
@@ -17,15 +19,16 @@
 //!   half a step at most, which carries each point of a triangle no farther than its corners; the other half is left for
 //!   the interpolation of depth;
 //! - the step between depths that the map can store;
-//! - what the f32 matrix can be off by at that point.
+//! - what the f32 matrix can be off by at that point;
+//! - in a map that bends lines, what a straight edge makes of depth.
 //!
-//! The receiver's depth may be off by the latter two as well.
+//! The receiver's depth may be off by the step and by what the matrix is off as well.
 //!
 //! Of a map that is tested between two layers it is the first layer that is looked into. A caster belongs in the map where
 //! that holds it or something nearer, as with first depth; that the middle of the layers may let light past it all the same
 //! is a matter of the test, and false light.
 
-use shadowfit::glam::DVec2;
+use shadowfit::glam::{DVec2, DVec3};
 
 use super::surface::Surface;
 use super::{Comparison, DrawnMap};
@@ -60,7 +63,11 @@ impl Comparison<'_> {
             farthest_caster = farthest_caster.max(depths.caster);
             nearest_receiver = nearest_receiver.min(depths.receiver);
         }
-        farthest_caster < nearest_receiver && nearest_receiver < stored
+        // Where the light grazes the receiver, its tangent plane leaves the picture and the scene within a texel.
+        let own = self.nearest_receiver(map, receiver.point);
+        own.is_some_and(|own| farthest_caster < own)
+            && farthest_caster < nearest_receiver
+            && nearest_receiver < stored
     }
 
     /// At a place of the map, the farthest depth with which the caster there can have been stored, and the nearest that
@@ -75,13 +82,19 @@ impl Comparison<'_> {
         let depth = projection.place(caster.point)?.z;
         let bias = map.bias.constant + projection.slope_bias(depth, slopes, map.bias.slope);
         let (_, caster_rounding) = projection.rounding(caster.point);
-        let (_, receiver_rounding) = projection.rounding(point);
-        let tolerance = SUBTEXEL * slopes.element_sum() + depth_step + caster_rounding;
+        let tolerance =
+            SUBTEXEL * slopes.element_sum() + depth_step + caster_rounding + projection.bend(depth, slopes);
         Some(Depths {
             triangle: caster.triangle,
             caster: depth + bias + tolerance,
-            receiver: projection.place(point)?.z - depth_step - receiver_rounding,
+            receiver: self.nearest_receiver(map, point)?,
         })
+    }
+
+    /// The nearest depth that a receiver at a point can have.
+    fn nearest_receiver(&self, map: &DrawnMap<'_>, point: DVec3) -> Option<f64> {
+        let (_, rounding) = map.projection.rounding(point);
+        Some(map.projection.place(point)?.z - self.rendered.depth_step - rounding)
     }
 }
 
@@ -103,7 +116,7 @@ fn touch(mesh: &Mesh, one: usize, other: usize) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use shadowfit::glam::{DMat4, DVec3};
+    use shadowfit::glam::DMat4;
 
     use super::*;
     use crate::scene::{MeshBuilder, Part};

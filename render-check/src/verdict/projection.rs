@@ -36,6 +36,12 @@ pub trait Projection: fmt::Debug + Sync {
     /// the map's shape: texels across, and depth.
     fn rounding(&self, point: DVec3) -> (f64, f64);
 
+    /// How much farther than it lies a plane with these slopes may be drawn, at a depth, where a map bends lines that a card
+    /// draws straight.
+    fn bend(&self, _depth: f64, _slopes: DVec2) -> f64 {
+        0.0
+    }
+
     /// How much larger a texel is than a pixel at a point, see [`shadowfit::Map::aliasing`]; infinite outside of the map.
     fn aliasing(&self, point: DVec3) -> f64;
 

@@ -46,7 +46,8 @@ pub struct Counts {
     pub pixels: usize,
     /// Those without a surface.
     pub sky: usize,
-    /// Those that the light does not reach, whatever stands where.
+    /// Those that the light does not reach, whatever stands where, and those that only something nearer to a lamp than its
+    /// map begins keeps it from.
     pub unlit: usize,
     /// The rest: those that are compared.
     pub compared: usize,

@@ -5,6 +5,7 @@ use shadowfit::Light;
 use shadowfit::glam::DVec3;
 
 use super::surface::Surface;
+use super::truth::Illumination;
 use crate::light::LightSpec;
 use crate::trace::{Ray, Tracer};
 
@@ -46,12 +47,20 @@ impl Source {
         (self.light.near()..=range).contains(&self.distance_from(point))
     }
 
-    /// Whether anything stands between a point on a surface with this unit normal, on the lit side, and the light or,
-    /// for a lamp, the place where its map begins.
-    pub(super) fn is_shadowed(&self, tracer: &Tracer, point: DVec3, normal: DVec3) -> bool {
-        let direction = self.light.direction_from(point);
-        let length = self.distance_from(point) - self.light.near();
-        length > 0.0 && tracer.is_blocked(&Ray { origin: tracer.off_surface(point, normal), direction, length })
+    /// Whether anything stands between a point on a surface with this unit normal, on the lit side, and the light, and
+    /// whether it is as far from a lamp as casters are to be.
+    pub(super) fn illumination(&self, tracer: &Tracer, point: DVec3, normal: DVec3) -> Illumination {
+        let (origin, direction) = (tracer.off_surface(point, normal), self.light.direction_from(point));
+        let is_blocked = |length| length > 0.0 && tracer.is_blocked(&Ray { origin, direction, length });
+        let distance = self.distance_from(point);
+        if is_blocked(distance - self.light.near()) {
+            Illumination::Shadow
+        } else if self.light.position().is_some() && is_blocked(distance - tracer.surface_offset()) {
+            // What is a hair from the lamp is on neither side of it.
+            Illumination::Either
+        } else {
+            Illumination::Lit
+        }
     }
 
     /// The ray of light that ends at a point: from where a lamp's map begins, or from beyond the scene for a sun.

@@ -23,6 +23,9 @@ pub enum Illumination {
     Shadow,
     /// It reaches the point.
     Lit,
+    /// All that stands in its way is nearer to the lamp than its map begins. No caster is to be there, and where one is,
+    /// it casts or does not: a map begins at a plane and holds some of what is so near. Such points are not compared.
+    Either,
 }
 
 /// What a pixel shows.
@@ -50,7 +53,7 @@ impl Truth {
         match self {
             Self::Seen(surface, Illumination::Shadow) => Some((surface, false)),
             Self::Seen(surface, Illumination::Lit) => Some((surface, true)),
-            Self::Sky | Self::Seen(_, Illumination::Unlit) => None,
+            Self::Sky | Self::Seen(_, Illumination::Unlit | Illumination::Either) => None,
         }
     }
 }
@@ -62,7 +65,8 @@ impl Truth {
 ///
 /// A point is in shadow where the ray from it to the light meets a triangle, from either side. The ray starts a hair off
 /// the surface, along the face's normal on the side that is seen ([`Tracer::off_surface`]): no triangle casts a shadow
-/// on itself, nor on another in the same plane. To a lamp the ray ends where the lamp's map begins.
+/// on itself, nor on another in the same plane. To a lamp the ray ends where the lamp's map begins, and what lies between
+/// there and the lamp leaves it open which the point is.
 #[derive(Clone, Debug)]
 pub struct TruthImage {
     view: View,
@@ -179,12 +183,10 @@ impl TruthImage {
 }
 
 fn illumination(source: &Source, tracer: &Tracer, surface: &Surface) -> Illumination {
-    if !source.reaches(surface) {
-        Illumination::Unlit
-    } else if source.is_shadowed(tracer, surface.point, surface.normal) {
-        Illumination::Shadow
+    if source.reaches(surface) {
+        source.illumination(tracer, surface.point, surface.normal)
     } else {
-        Illumination::Lit
+        Illumination::Unlit
     }
 }
 

@@ -2,6 +2,8 @@
 
 struct Camera {
     clip_from_origin: mat4x4<f32>,
+    // From positions about the geometry's origin to those that the shadow test is to have.
+    tested_from_origin: mat4x4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> camera: Camera;
@@ -26,5 +28,5 @@ struct Pixel {
 
 @fragment
 fn fragment(surface: Surface) -> Pixel {
-    return Pixel(vec4(surface.position, 1.0), surface.triangle);
+    return Pixel(camera.tested_from_origin * vec4(surface.position, 1.0), surface.triangle);
 }
