@@ -49,9 +49,10 @@ fn needed(far: f64, warp: Warp) -> (f64, f64) {
     })
 }
 
-/// What is left when the window's padding, 1e-6 and more of it, is divided out: the rounding of a few f64 operations,
-/// the largest, in the position of a far corner, magnified by f/n = 10⁴ at most.
-const CLOSE: f64 = 1e-9;
+/// What is left when the window's padding, 1e-6 and more of it, is divided out: planes stand 96 ε of the sum of their
+/// terms' magnitudes outside, here of two coordinates of 2f, and a corner is where three of them meet, the nearest at n,
+/// f/n = 10⁴ at most.
+const CLOSE: f64 = 3.0 * 96.0 * f64::EPSILON * 2.0 * 2e4;
 
 #[test]
 fn texels_needed_by_the_uniform_map() {

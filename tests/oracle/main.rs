@@ -11,7 +11,7 @@
 //! - `cone`: the generators of an intersection of half-spaces, by brute force.
 //! - `hull`, `body`: the half-spaces of conv(V ∪ {l}), and the vertices of a body.
 //! - `distance`, `margin`: how far a point is from a body, and a body from being empty.
-//! - `focus`: the crate's bodies against the exact ones.
+//! - `focus`: the crate's bodies against the exact ones; `corpus`: on the cases that fuzzing has kept.
 
 #![allow(clippy::disallowed_methods, reason = "lengths measure what a fit left out, they are no part of one")]
 
@@ -20,6 +20,7 @@ mod arbitrary;
 mod body;
 mod checks;
 mod cone;
+mod corpus;
 mod distance;
 mod exact;
 mod focus;
