@@ -5,26 +5,13 @@
 #![allow(clippy::disallowed_methods, reason = "angles spread the cases, they are no part of a fit")]
 
 mod arbitrary;
+mod claims;
 
 use arbitrary::{run, settings};
-use glam::{DMat4, DVec3, DVec4};
+use claims::rays::projected;
+use glam::DVec3;
 use proptest::prelude::*;
 use shadowfit::{Focus, Light, Map, Scene, Settings, View, Warp};
-
-/// A row of a matrix at a point, and how far rounding can carry it.
-fn at(row: DVec4, point: DVec3, reach: DVec3) -> (f64, f64) {
-    let terms = row.truncate().abs().dot(point.abs() + reach) + row.dot(point.extend(1.0)).abs();
-    (row.dot(point.extend(1.0)), 64.0 * f64::EPSILON * terms)
-}
-
-/// Coordinates after the division by w, how far rounding can carry them, and w itself.
-fn projected(matrix: &DMat4, point: DVec3, reach: DVec3) -> (DVec3, DVec3, f64) {
-    let rows = matrix.transpose();
-    let [(x, of_x), (y, of_y), (z, of_z), (w, of_w)] =
-        [rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis].map(|row| at(row, point, reach));
-    let place = DVec3::new(x, y, z) / w;
-    (place, (DVec3::new(of_x, of_y, of_z) + place.abs() * of_w) / w, w)
-}
 
 /// The numbers that a set-up is made of, by what they are.
 #[rustfmt::skip]

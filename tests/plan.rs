@@ -3,241 +3,73 @@
 #![cfg(feature = "std")]
 #![allow(clippy::disallowed_methods, reason = "angles spread the cases, they are no part of a plan")]
 
-use glam::{DVec3, Vec3};
+mod arbitrary;
+mod claims;
+
+use claims::planner::{
+    keeps_every_receiver_in_view, keeps_to_its_texels, loses_no_caster, sees_no_more_in_less, warps_to_gain,
+};
+use claims::town::LitTown;
+use glam::DVec3;
+use rand::SeedableRng as _;
 use rand::rngs::StdRng;
-use rand::{RngExt as _, SeedableRng as _};
-use shadowfit::glam;
 use shadowfit::{
-    Aabb, Budget, CubeFace, Filter, Kind, Light, LightPlan, Object, Objects, Pass, Plan, Projection, Reason,
-    Settings, Solidity, Surface, View, Warp, plan,
+    Aabb, Budget, Filter, Kind, Light, LightPlan, Object, Objects, Reason, Settings, Solidity, Surface, View, Warp,
+    plan,
 };
 
-/// A ground and some hundred boxes on it and above it, of every surface.
-fn town(rng: &mut StdRng) -> Vec<Object> {
-    let half = rng.random_range(5.0..80.0_f32);
-    let ground = Aabb::new(Vec3::new(-half, -0.1, -half), Vec3::new(half, 0.0, half));
-    let mut objects = vec![Object { casts: rng.random_bool(0.5), ..Object::new(ground) }];
-    for _ in 0..rng.random_range(3..200) {
-        let size = Vec3::new(rng.random_range(0.1..6.0), rng.random_range(0.1..12.0), rng.random_range(0.1..6.0));
-        let min = Vec3::new(
-            rng.random_range(-half..half),
-            if rng.random_bool(0.7) { 0.0 } else { rng.random_range(0.0..20.0) },
-            rng.random_range(-half..half),
-        );
-        let surface = match rng.random_range(0..10) {
-            0 => Surface::Points,
-            1..3 => Surface::FlatSheets,
-            3..5 => Surface::Mesh(Solidity::Open),
-            _ => Surface::Mesh(Solidity::Solid),
-        };
-        objects.push(Object {
-            casts: rng.random_bool(0.9),
-            receives: rng.random_bool(0.9),
-            surface,
-            triangles: rng.random_range(1..1000),
-            longest_edge: rng.random_range(0.01..1.0),
-            ..Object::new(Aabb::new(min, min + size))
-        });
-    }
-    objects
-}
-
-fn direction(rng: &mut StdRng) -> DVec3 {
-    loop {
-        let one = DVec3::from_array([(); 3].map(|()| rng.random_range(-1.0..1.0)));
-        if (0.1..1.0).contains(&one.length()) {
-            return one;
-        }
-    }
-}
-
-fn view(rng: &mut StdRng) -> View {
-    let eye = DVec3::new(rng.random_range(-20.0..20.0), rng.random_range(0.3..15.0), rng.random_range(-20.0..20.0));
-    let far = if rng.random_bool(0.2) { f64::INFINITY } else { rng.random_range(5.0..200.0) };
-    let fov = rng.random_range(0.2..2.0);
-    let near = rng.random_range(0.01..1.0);
-    View::perspective(eye, direction(rng) * DVec3::new(1.0, 0.3, 1.0), DVec3::Y, fov, 1.6, near, far)
-        .expect("a sound view")
-}
-
-fn light(rng: &mut StdRng) -> Light {
-    let position =
-        DVec3::new(rng.random_range(-30.0..30.0), rng.random_range(0.2..15.0), rng.random_range(-30.0..30.0));
-    let (near, range) = (rng.random_range(0.001..0.1), rng.random_range(1.0..60.0));
-    let range = if rng.random_bool(0.1) { f64::INFINITY } else { range };
-    match rng.random_range(0..5) {
-        0 => Light::directional(direction(rng) + DVec3::Y),
-        1 => Light::spot(position, direction(rng) - DVec3::Y, rng.random_range(0.1..1.5), near, range),
-        2 => Light::hemisphere(position, direction(rng) - DVec3::Y, near, range),
-        _ => Light::point(position, near, range),
-    }
-    .expect("a sound light")
-}
-
-fn budget(rng: &mut StdRng) -> Budget {
-    let size = 1 << rng.random_range(6..12);
-    let warp = if rng.random_bool(0.2) { Warp::Uniform } else { Warp::Perspective };
-    let filter = match rng.random_range(0..3) {
-        0 => Filter::Nearest,
-        1 => Filter::Hardware,
-        _ => Filter::PercentageCloser(rng.random_range(2..6)),
-    };
-    Budget::new(Settings::new(size, 720).expect("sound sizes").with_warp(warp)).with_filter(filter)
-}
-
-fn in_box(rng: &mut StdRng, one: &Aabb) -> DVec3 {
-    let part = DVec3::from_array([(); 3].map(|()| rng.random_range(0.0..1.0)));
-    one.min.as_dvec3() + part * (one.max - one.min).as_dvec3()
-}
-
-/// The pass that answers for a point.
-fn pass_for<'a>(light: &Light, of_light: &'a LightPlan, point: DVec3) -> Option<&'a Pass> {
-    of_light.passes().iter().find(|pass| match pass.projection() {
-        Projection::Frustum(_) => true,
-        Projection::Face(face, _) => light.position().is_some_and(|at| CubeFace::of(point - at) == *face),
-        Projection::Paraboloid(paraboloid) => paraboloid.clip_plane().at(point) >= 0.0,
-    })
-}
-
-/// Where a pass puts a point: x and y from −1 to 1 inside of the map, depth from 0 to 1.
-fn place(pass: &Pass, point: DVec3) -> DVec3 {
-    match pass.projection() {
-        Projection::Frustum(map) | Projection::Face(_, map) => {
-            map.shadow_from_world_in(shadowfit::ClipSpace::WGPU).project_point3(point)
-        }
-        Projection::Paraboloid(paraboloid) => paraboloid.project(point).expect("not behind the pole"),
-    }
-}
-
+/// How many towns.
 fn towns() -> u64 {
     let asked = std::env::var("SHADOWFIT_CASES").ok();
     asked.map_or(300, |count| count.parse::<u64>().expect("SHADOWFIT_CASES is a number") / 10)
 }
 
+/// Gives so many towns, each with so many lights and the numbers that made it, to a claim.
+fn each_town(towns: u64, lights: usize, mut claim: impl FnMut(&mut StdRng, &LitTown)) {
+    for seed in 0..towns {
+        // So that a failure says which town it was.
+        println!("town {seed}");
+        let mut rng = StdRng::seed_from_u64(seed);
+        let town = LitTown::at_random(&mut rng, lights);
+        claim(&mut rng, &town);
+    }
+}
+
 #[test]
 fn no_caster_is_lost() {
     let (mut checked, mut kinds) = (0, std::collections::BTreeMap::<String, u32>::new());
-    for seed in 0..towns() {
-        let rng = &mut StdRng::seed_from_u64(seed);
-        let town = town(rng);
-        let objects = Objects::new(&town).expect("a sound town");
-        let (view, budget) = (view(rng), budget(rng));
-        let lights: Vec<Light> = (0..6).map(|_| light(rng)).collect();
-        let plan = plan(&view, &lights, &objects, &budget);
-        for (light, of_light) in lights.iter().zip(plan.lights()) {
-            *kinds.entry(format!("{:?}", of_light.kind())).or_default() += 1;
-            checked += check_casters(rng, &town, &view, light, &plan, of_light, seed);
-        }
-    }
+    each_town(towns(), 6, |rng, town| {
+        let (casters, of_lights) = loses_no_caster(rng, town);
+        checked += casters;
+        of_lights.iter().for_each(|kind| *kinds.entry(format!("{kind:?}")).or_default() += 1);
+    });
     println!("{checked} casters between what is seen and its light; {kinds:?}");
     assert!(checked > 10 * towns(), "only {checked}");
     assert_eq!(kinds.len(), 6, "every kind is chosen: {kinds:?}");
 }
 
-/// Checks random casters of one light; returns how many there were.
-fn check_casters(
-    rng: &mut StdRng,
-    town: &[Object],
-    view: &View,
-    light: &Light,
-    plan: &Plan,
-    of_light: &LightPlan,
-    seed: u64,
-) -> u64 {
-    let mut checked = 0;
-    let is_inside = |planes: &[shadowfit::Plane], point| planes.iter().all(|plane| plane.at(point) >= 0.0);
-    for _ in 0..100 {
-        let receiver = &town[rng.random_range(0..town.len())];
-        let seen = in_box(rng, &receiver.bounds);
-        if !receiver.receives || !is_inside(&view.planes(), seen) || !is_inside(&light.planes(), seen) {
-            continue;
-        }
-        // The planes of L hold all that a light reaches, and corners beyond.
-        if light.position().is_some_and(|at| at.distance(seen) > light.range()) {
-            continue;
-        }
-        let to_light = light.position().map_or(60.0 * light.direction_from(seen), |position| position - seen);
-        for _ in 0..4 {
-            let caster = seen + to_light * rng.random_range(0.0..1.0);
-            let is_too_near = light.position().is_some_and(|at| at.distance(caster) < 1.01 * light.near());
-            if is_too_near || !is_inside(&light.planes(), caster) {
-                continue;
-            }
-            for (id, object) in (0..).zip(town) {
-                let Aabb { min, max } = object.bounds;
-                let holds = caster.cmpge(min.as_dvec3()).all() && caster.cmple(max.as_dvec3()).all();
-                if !object.casts || !holds {
-                    continue;
-                }
-                checked += 1;
-                let words = || format!("town {seed}: {light:?} at {seen}, behind {caster} of object {id}");
-                let pass = pass_for(light, of_light, seen).unwrap_or_else(|| panic!("no map, {}", words()));
-                assert!(plan.casters(pass).contains(&id), "not drawn, {}", words());
-                let (caster, seen) = (place(pass, caster), place(pass, seen));
-                assert!((caster - seen).truncate().length() < 1e-6, "{caster} and {seen} in the map, {}", words());
-                assert!(seen.truncate().abs().max_element() <= 1.0, "outside of the map, {}", words());
-                assert!(caster.z >= 0.0 && caster.z <= seen.z + 1e-9 && seen.z <= 1.0, "depth, {}", words());
-            }
-        }
-    }
-    checked
-}
-
 #[test]
 fn the_view_keeps_every_receiver() {
-    for seed in 0..towns() {
-        let rng = &mut StdRng::seed_from_u64(seed);
-        let town = town(rng);
-        let objects = Objects::new(&town).expect("a sound town");
-        let view = view(rng);
-        let plan = plan(&view, &[], &objects, &budget(rng));
-        for object in town.iter().filter(|object| object.receives) {
-            for _ in 0..50 {
-                let point = in_box(rng, &object.bounds);
-                if view.planes().iter().all(|plane| plane.at(point) >= 0.0) {
-                    assert!(plan.view().planes().iter().all(|plane| plane.at(point) >= 0.0), "{seed}: {point}");
-                }
-            }
-        }
-    }
+    each_town(towns(), 0, keeps_every_receiver_in_view);
 }
 
 #[test]
 fn no_warp_is_coarser_than_none() {
     let mut warped = 0;
-    for seed in 0..towns() {
-        let rng = &mut StdRng::seed_from_u64(seed);
-        let objects = Objects::new(&town(rng)).expect("a sound town");
-        let (view, budget) = (view(rng), budget(rng));
-        let lights: Vec<Light> = (0..6).map(|_| light(rng)).collect();
-        let unwarped = Budget::new(budget.settings().with_warp(Warp::Uniform)).with_filter(budget.filter());
-        let free = plan(&view, &lights, &objects, &budget);
-        let uniform = plan(&view, &lights, &objects, &unwarped);
-        for (free, uniform) in free.lights().iter().zip(uniform.lights()) {
-            if (free.kind(), uniform.kind()) == (Kind::Perspective, Kind::Uniform) {
-                warped += 1;
-                let (size, uniform_size) = (free.passes()[0].map_size(), uniform.passes()[0].map_size());
-                assert!(size <= uniform_size, "{seed}: {size} and {uniform_size} texels");
-                let is_finer = free.aliasing() < uniform.aliasing() || free.aliasing() <= budget.aliasing();
-                assert!(is_finer, "{seed}: {} and {}", free.aliasing(), uniform.aliasing());
-            }
-        }
-    }
+    each_town(towns(), 6, |_, town| warped += warps_to_gain(town));
     assert!(warped > towns() / 10, "only {warped}");
 }
 
 #[test]
 fn a_plan_keeps_to_its_texels() {
-    for seed in 0..towns() / 4 {
-        let rng = &mut StdRng::seed_from_u64(seed);
-        let objects = Objects::new(&town(rng)).expect("a sound town");
-        let (view, budget) = (view(rng), budget(rng));
-        let lights: Vec<Light> = (0..20).map(|_| light(rng)).collect();
-        let most = plan(&view, &lights, &objects, &budget).texels() / 3;
-        let within = plan(&view, &lights, &objects, &budget.with_texels(most));
-        let smallest = within.lights().iter().flat_map(LightPlan::passes).all(|pass| pass.map_size() <= 64);
-        assert!(within.texels() <= most || smallest, "{seed}: {} of {most}", within.texels());
-    }
+    each_town(towns() / 4, 20, |_, town| keeps_to_its_texels(town));
+}
+
+#[test]
+fn a_smaller_view_sees_no_more() {
+    let mut dark = 0;
+    each_town(towns(), 6, |rng, town| dark += sees_no_more_in_less(rng, town));
+    assert!(dark > towns() / 10, "only {dark}");
 }
 
 /// A thing between two corners, solid unless told otherwise, whose edges are short.

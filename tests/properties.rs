@@ -7,78 +7,28 @@
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
 mod arbitrary;
+mod claims;
 
-use arbitrary::{
-    Case, Frame, LightParams, Numbers, Pose, SceneParams, Similarity, Together, ViewParams, case, clip_space,
-    number_bits, points_of, rotation, run, settings,
-};
-use glam::{DMat4, DQuat, DVec3, DVec4};
+use arbitrary::{Pose, Together, ViewParams, case, rotation, run, settings};
+use claims::anything::{anything, makes_a_fit_or_a_typed_error};
+use claims::rays::{self, projected};
+use claims::results::exercise;
+use claims::scaling;
+use glam::{DQuat, DVec3};
 use proptest::prelude::*;
-use shadowfit::{
-    Body, ClipSpace, ConvexScene, DepthFormat, DepthResolution, Focus, Form, Light, Map, Offset, Origin, Outcome,
-    Plane, Scene, Settings, View, Warp, classify,
-};
-
-/// A row of a matrix at a point, and how far rounding can carry it.
-///
-/// A row is a combination of planes through the light or the eye and through the middle of what is visible: a few dozen
-/// roundings of terms as large as its normal times those points.
-fn at(row: DVec4, point: DVec3, reach: DVec3) -> (f64, f64) {
-    const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
-    let terms = row.truncate().abs().dot(point.abs() + reach) + row.w.abs();
-    // Terms may also be too small to be rounded like others.
-    (row.dot(point.extend(1.0)), ROUNDINGS * terms + f64::MIN_POSITIVE)
-}
-
-/// Coordinates after the division by w, how far rounding can carry them, and w itself.
-fn projected(matrix: &DMat4, point: DVec3, reach: DVec3) -> (DVec3, DVec3, f64) {
-    let rows = matrix.transpose();
-    let (w, w_slack) = at(rows.w_axis, point, reach);
-    let coordinates = [rows.x_axis, rows.y_axis, rows.z_axis].map(|row| {
-        let (value, slack) = at(row, point, reach);
-        let least = (w - w_slack).max(f64::MIN_POSITIVE);
-        (value / w, (slack + (value / w).abs() * w_slack) / least + f64::MIN_POSITIVE)
-    });
-    (DVec3::from(coordinates.map(|(value, _)| value)), DVec3::from(coordinates.map(|(_, slack)| slack)), w)
-}
+use shadowfit::{Body, ConvexScene, Focus, Light, Map, Origin, Plane, Scene, Settings, View, Warp};
 
 #[test]
 fn rays_keep_their_place_and_gain_depth() {
     run(5000, &(case(), settings(), any::<u64>()), |(case, settings, seed)| {
-        let together = Together::of(&case);
-        let focus = together.focus();
-        let Outcome::Map(map) = focus.fit(&settings) else { return };
-        let matrix = map.shadow_from_world_in(ClipSpace::WGPU);
-        let l = together.light.homogeneous();
-        let (min, max) = case.scene.bounds();
-        let (min, max) = (DVec3::from(min), DVec3::from(max));
-        let reach = min.abs().max(max.abs()) + together.view.eye().abs() + l.truncate().abs() * l.w;
-        let mut numbers = Numbers(!seed);
-        for point in points_of(&focus.visible(), seed) {
-            if !together.is_served(point) {
-                continue;
-            }
-            let (end, end_slack, end_w) = projected(&matrix, point, reach);
-            assert!(end_w > 0.0, "{point} has w {end_w}");
-            for _ in 0..4 {
-                // Beyond the near distance of a lamp; twice as far as the scene is large from the sun, so that many a
-                // caster is behind the eye.
-                let to_light = match together.light.position() {
-                    Some(position) => {
-                        let arm = position - point;
-                        arm * (1.0 - together.light.near() / arm.length()).max(0.0)
-                    }
-                    None => l.truncate() * (2.0 * (max - min).length()),
-                };
-                let caster = point + to_light * numbers.part();
-                let (start, start_slack, start_w) = projected(&matrix, caster, reach);
-                assert!(start_w > 0.0, "{caster} has w {start_w}");
-                let slack = end_slack + start_slack;
-                let moved = (start - end).abs();
-                assert!(moved.x <= slack.x && moved.y <= slack.y, "{caster} and {point} differ by {moved}");
-                assert!(start.z <= end.z + slack.z, "{caster} at {} is behind {point} at {}", start.z, end.z);
-            }
-        }
+        rays::keep_their_place(&case, &settings, seed);
+    });
+}
+
+#[test]
+fn rays_end_in_the_map() {
+    run(5000, &(case(), settings(), any::<u64>()), |(case, settings, seed)| {
+        rays::end_in_the_map(&case, &settings, seed);
     });
 }
 
@@ -175,31 +125,7 @@ fn maps_change_continuously_across_the_camera_plane() {
 #[test]
 fn scaling_by_a_power_of_two_changes_no_bit() {
     run(2000, &(case(), settings(), -20..=20_i32), |(case, settings, exponent)| {
-        let scale = 2_f64.powi(exponent);
-        let [larger, back] = [scale, scale.recip()].map(|scale| Similarity { scale, offset: [0.0; 3] });
-        let scaled = larger.apply(&case);
-        // Numbers that leave the range of f32 or the normal range of f64 on the way do not scale.
-        let l = case.build().1.homogeneous();
-        let is_tiny = |x: f64| x != 0.0 && x.abs() < 1e-200;
-        if !scaled.is_accepted() || back.apply(&scaled) != case || l.to_array().into_iter().any(is_tiny) {
-            return;
-        }
-        let (here, there) = (Together::of(&case), Together::of(&scaled));
-        let (here, there) = (here.focus(), there.focus());
-        let bodies = |focus: &Focus<'_>| [focus.visible(), focus.body(Form::Paper), focus.body(Form::Tight)];
-        for (body, scaled) in bodies(&here).iter().zip(&bodies(&there)) {
-            let expected: Vec<_> = body.vertices().iter().map(|vertex| vertex * scale).collect();
-            assert_eq!(scaled.vertices(), expected);
-        }
-        let (Outcome::Map(map), Outcome::Map(scaled)) = (here.fit(&settings), there.fit(&settings)) else {
-            assert_eq!(here.fit(&settings).map(), None);
-            assert_eq!(there.fit(&settings).map(), None);
-            return;
-        };
-        let clip = |map: &Map, point: DVec3| map.shadow_from_world().project_point3(point);
-        for &point in here.visible().vertices() {
-            assert_eq!(clip(&scaled, point * scale), clip(&map, point));
-        }
+        scaling::changes_no_bit(&case, &settings, exponent);
     });
 }
 
@@ -303,75 +229,6 @@ fn turning_and_moving_everything_changes_nothing() {
     });
 }
 
-/// Everything there is to know about a fit; none of it may be NaN.
-fn exercise(view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) {
-    let focus = Focus::new(view, light, scene);
-    for body in [focus.visible(), focus.body(Form::Paper), focus.body(Form::Tight)] {
-        assert!(body.vertices().iter().all(|vertex| vertex.is_finite()), "vertices {:?}", body.vertices());
-        assert!(body.volume().is_finite(), "volume {}", body.volume());
-        assert_eq!(body.is_empty(), body.bounds().is_none());
-        for face in body.faces() {
-            assert!(face.indices().len() >= 3 && face.vertices().all(|corner| corner.is_finite()));
-        }
-        assert!(body.edges().all(|(a, b)| a.is_finite() && b.is_finite()));
-    }
-    let class = classify(view, light);
-    assert!(class.position.is_finite() && class.sine_to_camera_plane.is_finite() && !class.eye_distance.is_nan());
-    let Outcome::Map(map) = focus.fit(settings) else { return };
-    assert!(map.matrix().is_finite(), "{}", map.matrix());
-    assert!(map.texture_matrix().is_finite(), "{}", map.texture_matrix());
-    assert!(map.shadow_from_world().is_finite(), "{}", map.shadow_from_world());
-    for &point in focus.visible().vertices() {
-        let position = map.shadow_from_world() * point.extend(1.0);
-        assert!(position.is_finite(), "{point} is at {position}");
-    }
-    for offset in [Offset::world(1.0), Offset::relative(0.1), Offset::depth(1e-3)] {
-        let matrix = map.texture_matrix_with(&offset.expect("a legal offset"));
-        assert!(matrix.is_finite(), "{matrix}");
-    }
-    let bias = map.bias(DepthFormat::Float32, 1.0).expect("a legal reach");
-    let report = map.report(&focus);
-    let DepthResolution { unorm8, unorm16, unorm24, float32 } = report.depth_resolution;
-    let (window, depth, camera) = (report.window, report.depth, report.camera);
-    let finite = [
-        ("warp ratio", report.warp_ratio),
-        ("weakening", map.weakening()),
-        ("width", window.width),
-        ("height", window.height),
-        ("padding x", window.padding.0),
-        ("padding y", window.padding.1),
-        ("window rounding", window.rounding),
-        ("slope", bias.slope.into()),
-        ("receiver", bias.receiver),
-        ("relative", bias.relative),
-        ("most of both", bias.most),
-        ("linear depth", map.linear_depth().normal.length()),
-        ("depth near", depth.near),
-        ("depth rounding", depth.rounding),
-        ("shift", camera.shift),
-        ("camera near", camera.near),
-        ("camera far", camera.far),
-    ];
-    for (name, value) in finite {
-        assert!(value.is_finite(), "{name} is {value}");
-    }
-    // What no texel, no depth or no far plane limits may be infinite.
-    let numbers = [
-        ("depth far", depth.far),
-        ("texel", report.texel),
-        ("aliasing", report.aliasing),
-        ("unorm8", unorm8),
-        ("unorm16", unorm16),
-        ("unorm24", unorm24),
-        ("float32", float32),
-        ("linear unorm8", report.linear_depth_resolution.unorm8),
-        ("linear float32", report.linear_depth_resolution.float32),
-    ];
-    for (name, value) in numbers {
-        assert!(!value.is_nan(), "{name} is NaN");
-    }
-}
-
 #[test]
 fn no_result_is_nan() {
     run(5000, &(case(), settings()), |(case, settings)| {
@@ -381,90 +238,10 @@ fn no_result_is_nan() {
     });
 }
 
-/// Any numbers at all as a view, as a light, and as a scene.
-fn anything() -> impl Strategy<Value = Case> {
-    let number = || prop_oneof![3 => -5.0..5.0, 1 => number_bits()];
-    let triple = move || [number(), number(), number()];
-    let pose = (triple(), triple(), triple()).prop_map(|(eye, forward, up)| Pose { eye, forward, up });
-    let maybe = move || prop::option::of(number());
-    let view = prop_oneof![
-        (pose.clone(), number(), number(), number(), maybe()).prop_map(|(pose, fov_y, aspect, near, far)| {
-            ViewParams::Perspective { pose, fov_y, aspect, near, far }
-        }),
-        (pose.clone(), number(), number(), number(), number()).prop_map(
-            |(pose, half_height, aspect, near, far)| {
-                ViewParams::Orthographic { pose, half_height, aspect, near, far }
-            }
-        ),
-        (
-            pose,
-            any::<bool>(),
-            number(),
-            [number(), number(), number(), number()],
-            (number(), maybe()),
-            clip_space()
-        )
-            .prop_map(|(pose, mirrored, scale, slopes, (near, far), clip)| ViewParams::Matrices {
-                pose,
-                mirrored,
-                scale,
-                frame: Frame { slopes, near, far },
-                clip,
-            }),
-    ];
-    let light =
-        prop_oneof![
-            triple().prop_map(|direction_to_light| LightParams::Directional { direction_to_light }),
-            (triple(), number(), maybe()).prop_map(|(position, near, range)| LightParams::Point {
-                position,
-                near,
-                range
-            }),
-            (triple(), triple(), number(), number(), maybe()).prop_map(
-                |(position, axis, half_angle, near, range)| {
-                    LightParams::Spot { position, axis, half_angle, near, range }
-                }
-            ),
-            (triple(), triple(), number(), maybe())
-                .prop_map(|(position, axis, near, range)| LightParams::Hemisphere { position, axis, near, range }),
-            (triple(), prop::option::of(triple()), number(), maybe(), 0..6_usize, number()).prop_map(
-                |(position, axis, near, range, face, overlap)| {
-                    LightParams::CubeFace { position, axis, near, range, face, overlap }
-                }
-            ),
-        ];
-    let planes = prop::collection::vec([number(), number(), number(), number()], 0..14);
-    let boxes = move || {
-        prop::collection::vec([triple(), triple()].prop_map(|ends| ends.map(|end| end.map(|x| x as f32))), 0..3)
-    };
-    let scene = prop_oneof![
-        (triple(), triple()).prop_map(|(min, max)| SceneParams::Bounds { min, max }),
-        (triple(), triple(), planes).prop_map(|(min, max, planes)| SceneParams::Cut { min, max, planes }),
-        (boxes(), boxes()).prop_map(|(casters, receivers)| SceneParams::Lists { casters, receivers }),
-    ];
-    (view.boxed(), light.boxed(), scene.boxed()).prop_map(|(view, light, scene)| Case { view, light, scene })
-}
-
 #[test]
 fn any_numbers_make_a_fit_or_a_typed_error() {
     run(10_000, &(anything(), case(), settings()), |(any, legal, settings)| {
-        // Each part beside legal ones, and all of them together.
-        let (view, light) = legal.build();
-        let (any_view, any_light, any_scene) = (any.view.build(), any.light.build(), any.scene.store());
-        let store = legal.scene.store();
-        let scene = store.scene().expect("the scene is accepted");
-        if let Ok(view) = &any_view {
-            exercise(view, &light, &scene, &settings);
-        }
-        if let Ok(light) = &any_light {
-            exercise(&view, light, &scene, &settings);
-        }
-        if let Ok(scene) = &any_scene.scene() {
-            exercise(&view, &light, scene, &settings);
-        }
-        if let (Ok(view), Ok(light), Ok(scene)) = (&any_view, &any_light, &any_scene.scene()) {
-            exercise(view, light, scene, &settings);
-        }
+        makes_a_fit_or_a_typed_error(&any, &legal, &settings);
     });
 }
 

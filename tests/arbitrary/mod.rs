@@ -8,10 +8,14 @@
 //! - `primitive`: directions, magnitudes, and values a few ulps from another.
 //! - `views`, `lights`, `scenes`: one strategy for each concept.
 //! - `together`: a case brought together, with settings, and points to try a map on.
+//! - `bytes`, `edits`, `corpus`: cases from the bytes of a fuzzer, and those that fuzzing has kept.
 
 #![allow(dead_code, unused_imports, reason = "every target that takes this module in uses a part of it")]
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
+mod bytes;
+mod corpus;
+mod edits;
 mod lights;
 mod params;
 mod primitive;
@@ -19,6 +23,9 @@ mod scenes;
 mod together;
 mod views;
 
+pub(crate) use bytes::{ShownOnPanic, case_with, drawn};
+pub(crate) use corpus::replay;
+pub(crate) use edits::numbers;
 pub(crate) use lights::LightParams;
 pub(crate) use params::{Case, Similarity, plane};
 pub(crate) use primitive::{number_bits, rotation};

@@ -16,16 +16,19 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
+use glam::DVec3;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use shadowfit::Plane;
 
 use crate::arbitrary::{Case, SceneParams, case};
+use crate::body::Body;
 use crate::certified::half_spaces::HalfSpaces;
 use crate::certified::precise::admits;
-use crate::certified::{ENOUGH, Margins, Uncertain, certify};
+use crate::certified::{ENOUGH, Margins, Uncertain, certify, side_of_box, unit};
 use crate::focus::Input;
-use crate::loss::{Shape, losses, margin};
+use crate::loss::{Shape, losses};
 
 /// The names of the three bodies.
 const NAMES: [&str; 3] = ["R", "paper", "tight"];
@@ -152,9 +155,8 @@ impl fmt::Display for Found {
 
 /// The half-spaces that hold the exact bodies of a case, unless its numbers are too large or too small.
 pub(crate) fn half_spaces(input: &Input, case: &Case) -> Option<[HalfSpaces; 3]> {
-    let rows = |planes: &[shadowfit::Plane]| -> Vec<[f64; 4]> {
-        planes.iter().map(|plane| plane.to_row().to_array()).collect()
-    };
+    let rows =
+        |planes: &[Plane]| -> Vec<[f64; 4]> { planes.iter().map(|plane| plane.to_row().to_array()).collect() };
     let (min, max) = case.scene.bounds();
     // The sides of the box come first.
     let (lit, all, v) = (rows(&input.lit[6..]), rows(&input.planes()), rows(&input.v));
@@ -224,6 +226,14 @@ fn decide(input: &Input, computed: &[Shape; 3], left: [bool; 3], near: [bool; 3]
     if !lost.is_empty() {
         found.lose(format!("{}\n{case:?}", lost.join("\n")));
     }
+}
+
+/// By how much the exact body is inside of the computed planes that are no sides of the scene's box, in ε times the
+/// magnitude of a plane's terms.
+fn margin(computed: &Shape, exact: &Body, bounds: (DVec3, DVec3)) -> f64 {
+    let moved = computed.planes.iter().filter(|plane| side_of_box(plane, bounds).is_none());
+    let inside = |plane: &Plane| -exact.violation(plane.to_row().to_array()) * plane.normal.length();
+    moved.map(|plane| inside(plane) / unit(plane, bounds)).fold(f64::INFINITY, f64::min)
 }
 
 fn block(index: usize, cases: usize) -> Found {

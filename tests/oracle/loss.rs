@@ -6,7 +6,6 @@ use glam::DVec3;
 use shadowfit::{Body as Computed, Plane};
 
 use crate::body::Body;
-use crate::certified::{side_of_box, unit};
 use crate::focus::{facets, outside};
 use crate::homogeneous::{ExactPoint, Homogeneous};
 
@@ -77,12 +76,4 @@ pub(crate) fn losses(computed: &Shape, exact: &Body) -> Vec<Loss> {
         (by > 0.0).then_some(Loss::Vertex(position.into(), by))
     });
     computed.planes.iter().filter_map(of_plane).chain(vertices).collect()
-}
-
-/// By how much the exact body is inside of the computed planes that are no sides of the scene's box, in ε times the
-/// magnitude of a plane's terms.
-pub(crate) fn margin(computed: &Shape, exact: &Body, bounds: (DVec3, DVec3)) -> f64 {
-    let moved = computed.planes.iter().filter(|plane| side_of_box(plane, bounds).is_none());
-    let inside = |plane: &Plane| -exact.violation(plane.to_row().to_array()) * plane.normal.length();
-    moved.map(|plane| inside(plane) / unit(plane, bounds)).fold(f64::INFINITY, f64::min)
 }

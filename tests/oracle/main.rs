@@ -12,10 +12,10 @@
 //! - `hull`, `body`: the half-spaces of conv(V ∪ {l}), and the vertices of a body.
 //! - `distance`, `margin`: how far a point is from a body, and a body from being empty.
 //! - `loss`: what a computed body leaves out of an exact one.
-//! - `focus`: the crate's bodies against the exact ones.
+//! - `focus`: the crate's bodies against the exact ones; `corpus`: on the cases that fuzzing has kept.
 //! - `certified`: proofs, checked in floating point with certain bounds, that nothing is left out; most cases have one.
 //! - `long_run`: ten million cases, certified or, where that fails, decided exactly.
-//! - `found`: cases in which it found something.
+//! - `found`: cases in which something was wrong once.
 
 #![allow(clippy::disallowed_methods, reason = "lengths measure what a fit left out, they are no part of one")]
 
@@ -25,6 +25,7 @@ mod body;
 mod certified;
 mod checks;
 mod cone;
+mod corpus;
 mod distance;
 mod exact;
 mod focus;

@@ -1,0 +1,10 @@
+//! No plan loses a caster, and what else is claimed of plans.
+
+#![no_main]
+
+#[path = "../../tests/arbitrary/mod.rs"]
+mod arbitrary;
+#[path = "../../tests/claims/mod.rs"]
+mod claims;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| claims::targets::planner(bytes));

@@ -1,0 +1,35 @@
+//! Numbers of another size, the same bits.
+
+use glam::DVec3;
+use shadowfit::{Focus, Form, Map, Outcome, Settings};
+
+use crate::arbitrary::{Case, Similarity, Together, numbers};
+
+/// Asserts that scaling a case by two to some power scales its bodies by just that, and its map not at all.
+pub(crate) fn changes_no_bit(case: &Case, settings: &Settings, exponent: i32) {
+    let scale = 2_f64.powi(exponent);
+    let [larger, back] = [scale, scale.recip()].map(|scale| Similarity { scale, offset: [0.0; 3] });
+    let scaled = larger.apply(case);
+    // Numbers that leave the range of f32 or the normal range of f64 on the way do not scale.
+    let l = case.build().1.homogeneous().to_array();
+    let is_tiny = |x: f64| x != 0.0 && x.abs() < 1e-200;
+    if !scaled.is_accepted() || back.apply(&scaled) != *case || numbers(case).into_iter().chain(l).any(is_tiny) {
+        return;
+    }
+    let (here, there) = (Together::of(case), Together::of(&scaled));
+    let (here, there) = (here.focus(), there.focus());
+    let bodies = |focus: &Focus<'_>| [focus.visible(), focus.body(Form::Paper), focus.body(Form::Tight)];
+    for (body, scaled) in bodies(&here).iter().zip(&bodies(&there)) {
+        let expected: Vec<_> = body.vertices().iter().map(|vertex| vertex * scale).collect();
+        assert_eq!(scaled.vertices(), expected);
+    }
+    let (Outcome::Map(map), Outcome::Map(scaled)) = (here.fit(settings), there.fit(settings)) else {
+        assert_eq!(here.fit(settings).map(), None);
+        assert_eq!(there.fit(settings).map(), None);
+        return;
+    };
+    let clip = |map: &Map, point: DVec3| map.shadow_from_world().project_point3(point);
+    for &point in here.visible().vertices() {
+        assert_eq!(clip(&scaled, point * scale), clip(&map, point));
+    }
+}

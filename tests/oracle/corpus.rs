@@ -1,0 +1,16 @@
+//! The cases that fuzzing has kept, against the exact oracle.
+
+use proptest::prelude::*;
+
+use crate::arbitrary::{ShownOnPanic, case_with, replay};
+use crate::focus::check_case;
+
+#[test]
+fn focus() {
+    replay("focus", |bytes| {
+        if let Some((case, ())) = case_with(Just(()), bytes) {
+            let _shown = ShownOnPanic(&case);
+            check_case(&case);
+        }
+    });
+}
