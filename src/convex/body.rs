@@ -150,12 +150,13 @@ impl Body {
             let along = x / (x.abs() + y.abs());
             if y > 0.0 { along } else { -2.0 - along }
         };
-        face.order[..face.len].sort_unstable_by(|a, b| turn(a).total_cmp(&turn(b)));
+        face.order[..face.len].sort_unstable_by(|a, b| turn(a).total_cmp(&turn(b)).then(a.cmp(b)));
         Some(face)
     }
 }
 
-/// A face of a [`Body`]: a convex polygon.
+/// A face of a [`Body`]: a convex polygon, but where two planes nearly coincide. Corners on both are anywhere between the two,
+/// which is nothing across the plane and may be much along it.
 #[derive(Clone, Copy, Debug)]
 pub struct Face<'a> {
     body: &'a Body,

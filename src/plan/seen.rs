@@ -41,7 +41,7 @@ fn narrowed(view: &View, visible: &[(u32, Aabb)], extent: DVec3) -> Option<View>
             (Interval { min: depth(-forward), max: depth(forward) }, one)
         })
         .collect();
-    depths.sort_unstable_by(|(a, _), (b, _)| a.min.total_cmp(&b.min));
+    depths.sort_by(|(a, _), (b, _)| a.min.total_cmp(&b.min));
     // The nearest corner of a box may be out of view. Boxes are cut one after another until the rest are all farther.
     let (mut body, mut found) = (Polyhedron::EMPTY, Interval::EMPTY);
     for (depth, one) in &depths {
