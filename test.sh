@@ -44,6 +44,13 @@ for of_feature in parry3d:parry mint:mint serde:serde spade:refine wgsl:parabolo
     cargo test --package shadowfit --no-default-features --features "std,$feature" --lib --test "${of_feature##*:}"
 done
 
+step 'the same bits: unoptimised, with fused multiplication at hand, and on WebAssembly where that target is installed'
+CARGO_PROFILE_DEV_OPT_LEVEL=0 cargo test --package shadowfit --all-features --test bits
+RUSTFLAGS='-C target-cpu=native' CARGO_TARGET_DIR=target/native tests/bits/target.sh "$(rustc --print host-tuple)"
+if [ -d "$(rustc --print target-libdir --target wasm32-wasip1)" ]; then
+    tests/bits/target.sh wasm32-wasip1
+fi
+
 step 'tests, the lower end of the glam range'
 # In a copy, so that the lock file here stays as it is.
 copy=target/lower-glam

@@ -293,3 +293,37 @@ pub(crate) struct MapNoise {
     /// where w(D), which e·D is in the first case, is linear in the place in the map and the same for all planes.
     pub(crate) change: f64,
 }
+
+#[cfg(test)]
+#[allow(clippy::disallowed_methods, reason = "powers spread the cases, they are no part of a fit")]
+mod tests {
+    use super::Noise;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 5000, failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// The line of 1/w is nowhere below the noise, and no more above it at one end than at the other; with the corner at
+        /// an end it is the noise.
+        #[test]
+        fn parts_are_no_less_than_the_noise(over_w in -9.0..0.0, most in 0.0..6.0, least_w in -6.0..-0.01) {
+            let [over_w, most, least_w] =
+                [over_w, most, least_w].map(|exponent: f64| (exponent * core::f64::consts::LN_10).exp());
+            let noise = Noise { over_w, most: over_w * most };
+            let (p, q) = noise.parts(least_w);
+            prop_assert!(p >= 0.0 && q >= 0.0);
+            let over = |w: f64| (p / w + q) / noise.at(w);
+            for step in 0..=64 {
+                let w = least_w + (1.0 - least_w) * f64::from(step * step) / 4096.0;
+                prop_assert!(over(w) >= 1.0 - 1e-12, "at {} by {}", w, over(w));
+            }
+            let corner = over_w / noise.most;
+            if corner > least_w && corner < 1.0 {
+                prop_assert!((over(corner) - 1.0).abs() <= 1e-12, "at the corner by {}", over(corner));
+                prop_assert!((over(least_w) / over(1.0) - 1.0).abs() <= 1e-9, "{} {}", over(least_w), over(1.0));
+            } else {
+                prop_assert!((over(least_w) - 1.0).abs() <= 1e-12 && (over(1.0) - 1.0).abs() <= 1e-12);
+            }
+        }
+    }
+}
