@@ -15,7 +15,7 @@ use crate::settings::{Origin, Settings, Shift, Warp};
 use crate::view::View;
 use crate::warp;
 use core::fmt;
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 /// The window and the depth range are at least this part of half of what the image shows at the visible points: a
 /// millionth of a pixel or so, for a scene that is a point.
@@ -209,32 +209,31 @@ fn fit_visible(
     }
     let casting = body;
     let extent = focus.cut_lit(casting, casters, |_, _| ());
-    let planes = map.planes(&bordered, least_c);
+    // Casters beyond all that is visible shadow none of it.
+    let planes = map.planes(&bordered, depth.max, least_c);
     // No point that a directional light reaches has less than the least c.
-    let planes = if rays.local { &planes[..] } else { &planes[..4] };
+    let planes = if rays.local { &planes[..] } else { &planes[..5] };
     clip_all(casting, planes, VIEW_IDS, extent, |_, _| ());
-    let last = depth.max;
-    depth.min = f64::INFINITY;
-    let mut nearest = along.min;
-    for point in casting.positions() {
-        let values = map.at(point);
-        // But for rounding c would never be less.
-        let c = most(values.w, 0.5 * least_c);
-        depth.min = least(depth.min, values.z / c);
-        nearest = least(nearest, rays.along.at(point));
-        rounding.include_casting(point, c);
-    }
-    // Casters beyond all that is visible shadow none of it. Without any casters the least depth is infinite, and those
-    // of a flat scene are as deep as what is visible, but for rounding.
-    if depth.min > last + rounding.of_depth(&Interval { min: last, max: last }) {
+    if casting.is_empty() {
         return Outcome::Empty(Empty::NothingCasts);
     }
-    depth.min = least(depth.min, last);
+    // But for rounding c would never be less.
+    let c_of = |values: DVec4| most(values.w, 0.5 * least_c);
+    let mut nearest = along.min;
+    depth.min = depth.max;
+    for point in casting.positions() {
+        let values = map.at(point);
+        depth.min = least(depth.min, values.z / c_of(values));
+        nearest = least(nearest, rays.along.at(point));
+        rounding.include_casting(point, c_of(values));
+    }
 
     let smallest = LEAST_PART * seen;
     let half = rounding.padded_window(&window, settings.inner(), settings.map_size(), smallest);
     let padded = window.with_half(half);
-    let padded_depth = rounding.padded_depth(&depth, smallest);
+    let casters = casting.positions().map(|point| (point, map.at(point)));
+    let deepest = casters.map(|(point, values)| rounding.deepest(point, values.z, c_of(values), &depth));
+    let padded_depth = rounding.padded_depth(&depth, deepest.fold(depth.max, most), smallest);
     // What is so far from a lamp has at least so much c, whatever the warp; under a directional light there is none beside.
     let away_c = if rays.local { ratio.min * along.max * AWAY_FROM_LAMP } else { c.min };
     // −e·l.

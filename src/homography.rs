@@ -70,14 +70,16 @@ impl Homography {
         farthest.into_iter().fold(f64::MIN_POSITIVE, most).recip()
     }
 
-    /// The planes that bound the window and, last, cut off what has less than the least c; inside ≥ 0.
-    pub(crate) fn planes(&self, window: &Rectangle, least_c: f64) -> [Plane; 5] {
+    /// The planes that bound the window, cut off what is deeper than `last` and, at the end of the list, what has less than
+    /// the least c; inside ≥ 0.
+    pub(crate) fn planes(&self, window: &Rectangle, last: f64, least_c: f64) -> [Plane; 6] {
         let (min, max) = (window.centre - window.half, window.centre + window.half);
         [
             self.a - self.c * min.x,
             self.c * max.x - self.a,
             self.b - self.c * min.y,
             self.c * max.y - self.b,
+            self.c * last - self.e,
             self.c - Plane::ONE * least_c,
         ]
     }

@@ -80,7 +80,9 @@ impl Window {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DepthSpan {
     /// Distance of the near plane along the map's axis in world units, from the light, or from the eye when the light
-    /// is infinitely far away.
+    /// is infinitely far away. A plane of equal depth is slanted under a warp, and this is where the ray in the middle meets
+    /// it; infinite where that does not, because all casters of a list are off to one side.
+    #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
     pub near: f64,
     /// Distance of the far plane, likewise; infinite where padding has moved it beyond every point.
     #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]

@@ -85,6 +85,11 @@ impl Rows {
         self.depth + most(range.min.abs(), range.max.abs()) * self.w
     }
 
+    /// What a range is padded by at an end for this: twice the rounding of z and of w.
+    fn padding(&self, range: &Interval) -> f64 {
+        2.0 * (self.of_depth(range) + (range.max - range.min) * self.w)
+    }
+
     /// Rounding of positions across a window, whose rows are a and b less the centre times c.
     fn of_window(&self, window: &Rectangle) -> DVec2 {
         self.across + window.centre.abs() * self.w
@@ -201,11 +206,6 @@ impl Rounding {
         self.visible.ratio.times(self.cut).min(&self.visible.magnitude.times(self.c.min.recip()))
     }
 
-    /// Rounding of the depths of everything.
-    pub(crate) fn of_depth(&self, range: &Interval) -> f64 {
-        self.visible().of_depth(range).max(self.casting.of_depth(range))
-    }
-
     /// Half extents of a window that holds `window` after rounding in the `inner` part of a map of `size` texels a
     /// side, no smaller than `least`, nor so small that a texel would be less than the rounding.
     pub(crate) fn padded_window(&self, window: &Rectangle, inner: f64, size: u32, least: f64) -> DVec2 {
@@ -221,15 +221,25 @@ impl Rounding {
         padded.max(visible * (0.5 * f64::from(size))).max(DVec2::splat(least))
     }
 
-    /// A depth range that holds `depth` after rounding, no shorter than `least`, nor so short that the rounding of what
-    /// is visible would be more than a millionth of it where c is largest.
-    pub(crate) fn padded_depth(&self, depth: &Interval, least: f64) -> Interval {
+    /// How deep rounding may put a point that casts, with the depth e/c there, in a range before it is padded.
+    ///
+    /// (e + M)/c of a body is largest at a vertex, as M/c is. It is not enough to know M/c of what is visible: on a plane that a
+    /// lamp grazes casters are as deep as that, and may be much farther from the origin.
+    #[inline]
+    pub(crate) fn deepest(&self, point: DVec3, e: f64, c: f64, range: &Interval) -> f64 {
+        let mut rows = Rows::default();
+        rows.include(self.at(point) * c.recip());
+        e / c + rows.padding(range)
+    }
+
+    /// A depth range that holds `depth` after rounding, what casts down to `deepest`, no shorter than `least`, nor so short
+    /// that the rounding of what is visible would be more than a millionth of it where c is largest.
+    pub(crate) fn padded_depth(&self, depth: &Interval, deepest: f64, least: f64) -> Interval {
         let length = depth.max - depth.min;
-        // Twice the rounding of z and of w, at either end that of what lies there; casters next to a light may at most
-        // double the range.
-        let pad = |worst: &Rows| 2.0 * (worst.of_depth(depth) + length * worst.w);
-        let far = pad(&self.visible());
-        let near = far.max(pad(&self.casting).min(length));
+        let far = self.visible().padding(depth);
+        // Casters next to a light may at most double the range.
+        let near = far.max(self.casting.padding(depth).min(length));
+        let far = far.max((deepest - depth.max).min(length));
         // Of the row e − min c only what a longer range makes less of: the ends are no farther apart than it is long, so
         // that the rest is at most what f32 loses of w. Hyperbolic depth begins far below 0 and ends next to it.
         let Rows { depth: e, w, .. } = self.visible.magnitude;

@@ -16,7 +16,7 @@ use claims::results::exercise;
 use claims::scaling;
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
-use shadowfit::{Body, ConvexScene, Focus, Light, Map, Origin, Plane, Scene, Settings, View, Warp};
+use shadowfit::{Aabb, Body, ConvexScene, Focus, Light, Map, Origin, Plane, Scene, Settings, Shift, View, Warp};
 
 #[test]
 fn rays_keep_their_place_and_gain_depth() {
@@ -281,5 +281,36 @@ fn lamp_whose_near_distance_reaches_beyond_what_is_visible() {
                 }
             }
         }
+    }
+}
+
+/// Found by fuzzing: where the map begins in depth, at the corner where the only caster is, the ray in the middle never comes.
+#[test]
+fn casters_of_a_list_that_are_all_off_to_one_side() {
+    let eye = [48.194_483_578_650_96, 9.928_537_469_235_506, -31.059_436_741_518_088];
+    let forward = [-0.982_455_607_628_362_5, -0.383_264_245_429_698_4, 0.186_496_592_568_296_23];
+    let (fov_y, aspect) = (1.295_621_593_877_389, 0.693_009_676_189_929_9);
+    let view =
+        View::perspective(eye, forward, DVec3::Y, fov_y, aspect, 0.059_711_555_603_759_98, 1178.171_356_658_947_2);
+    let position = [705.324_430_724_851_4, 1_131.186_833_234_152_8, -313.517_486_177_905_14];
+    let axis = [-0.126_285_209_196_612_26, -0.659_095_026_776_971_6, -0.741_381_003_004_548_9];
+    let light = Light::hemisphere(position, axis, 116.734_752_513_018_92, f64::INFINITY);
+    let aabb = |[min, max]: [[f32; 3]; 2]| Aabb::new(min.into(), max.into());
+    let casters = [aabb([[-706.5983, -1244.3206, 558.4742], [-617.66895, -1073.641, 1225.076]])];
+    let receivers = [
+        [[-1327.0049, -248.08102, -16.570423], [-572.18225, 584.2471, 1316.6333]],
+        [[-984.0922, -1244.3206, 236.80075], [525.5531, -411.71515, 831.54333]],
+        [[-706.5983, -1028.9315, -492.48926], [48.22429, -1028.9315, 840.7145]],
+        [[-706.5983, -411.71515, 174.11261], [803.04694, 1253.4956, 174.11261]],
+        [[-706.5983, -411.71515, -269.93503], [48.22429, -22.179192, -269.93503]],
+    ];
+    let receivers = receivers.map(aabb);
+    let scene = Scene::new(&casters, &receivers).expect("a legal scene");
+    let (view, light) = (view.expect("a legal view"), light.expect("a legal light"));
+    for origin in [Origin::World, Origin::Eye] {
+        let settings = Settings::default().with_shift(Shift::None).with_origin(origin);
+        exercise(&view, &light, &scene, &settings);
+        let map = *Focus::new(&view, &light, &scene).fit(&settings).map().expect("one map does");
+        assert_eq!(map.depth().near, f64::INFINITY);
     }
 }

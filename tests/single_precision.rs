@@ -9,11 +9,11 @@
 mod arbitrary;
 mod claims;
 
-use arbitrary::{case, run, settings};
+use arbitrary::{Case, Frame, LightParams, Pose, SceneParams, ViewParams, case, run, settings};
 use claims::single_precision::{holds_what_it_must, is_as_quiet_as_it_says, rounding};
 use glam::DVec3;
 use proptest::prelude::*;
-use shadowfit::{Focus, Light, Origin, Scene, Settings, View, Warp};
+use shadowfit::{ClipSpace, Focus, Light, Origin, Scene, Settings, Shift, View, Warp};
 
 #[test]
 fn maps_hold_what_they_must() {
@@ -55,5 +55,43 @@ fn a_plate_under_light_from_above_does_not_drown_in_noise() {
                 }
             }
         }
+    }
+}
+
+/// Found by fuzzing: on a ground that a lamp in it grazes, casters by the lamp are as deep as what is visible, and far from the
+/// eye, which positions are relative to. The far end of the depth range knew only of the roundings of what is visible.
+#[test]
+fn casters_that_are_as_deep_as_what_is_visible_and_far_from_the_origin() {
+    let pose = Pose {
+        eye: [0.0; 3],
+        forward: [0.457_736_077_945_763_76, 0.659_137_581_307_904_5, 0.031_233_688_858_003_927],
+        up: [0.018_466_759_188_486_274, 0.0, -0.012_019_822_723_789_516],
+    };
+    let frame = Frame {
+        slopes: [
+            -0.216_364_330_899_594_67,
+            0.416_034_068_743_890_9,
+            0.081_285_232_953_539_79,
+            1.761_387_157_009_383,
+        ],
+        near: 0.010_820_981_874_558_891,
+        far: Some(190.358_471_987_866_4),
+    };
+    let clip = ClipSpace::WGPU.reversed();
+    let side = 1671.242_475_484_479_2;
+    let case = Case {
+        view: ViewParams::Matrices { pose, mirrored: false, scale: 100.0, frame, clip },
+        light: LightParams::Hemisphere {
+            position: [-side, 0.0, side],
+            axis: [side, 0.103_132_681_771_291_23, -side],
+            near: 2.954_281_989_746_755,
+            range: Some(2600.378_185_430_656_7),
+        },
+        scene: SceneParams::Bounds { min: [-side, 0.0, -side], max: [side, 0.206_265_363_542_582_46, side] },
+    };
+    let settings = Settings::new(512, 1080).and_then(|settings| settings.with_border(0)).expect("sound");
+    let settings = settings.with_shift(Shift::None).with_origin(Origin::Eye);
+    for seed in 0..1000 {
+        holds_what_it_must(&case, &settings, seed);
     }
 }

@@ -47,7 +47,6 @@ pub(crate) fn exercise(view: &View, light: &Light, scene: &Scene<'_>, settings: 
         ("relative", bias.relative),
         ("most of both", bias.most),
         ("linear depth", map.linear_depth().normal.length()),
-        ("depth near", depth.near),
         ("depth rounding", depth.rounding),
         ("shift", camera.shift),
         ("camera near", camera.near),
@@ -56,8 +55,9 @@ pub(crate) fn exercise(view: &View, light: &Light, scene: &Scene<'_>, settings: 
     for (name, value) in finite {
         assert!(value.is_finite(), "{name} is {value}");
     }
-    // What no texel, no depth or no far plane limits may be infinite.
+    // What no texel, no depth, no near or no far plane limits may be infinite.
     let numbers = [
+        ("depth near", depth.near),
         ("depth far", depth.far),
         ("texel", report.texel),
         ("aliasing", report.aliasing),
