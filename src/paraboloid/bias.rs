@@ -41,7 +41,8 @@ impl Paraboloid {
     ///
     /// # What it takes for granted
     ///
-    /// - t is that of places no nearer to the light than a 64th of the far distance; nearer, f32 may be coarser than that.
+    /// - t is that of places no nearer to the light than a 64th of the far distance, nor than its near distance; nearer, f32 may
+    ///   be coarser than that.
     /// - h is a texel, or eight times s where that is more.
     /// - It is about planes, as for [`DepthBias`].
     ///

@@ -121,7 +121,7 @@ pub(crate) fn noise_is_at_least_that_of_points(case: &Case, settings: &Settings,
     for map in focus.paraboloids(settings).maps() {
         let bias = map.bias(DepthFormat::Unorm24, 0.5).expect("a reach");
         for point in points_of(&focus.visible(), seed) {
-            let far_enough = point.distance(map.position()) >= map.far() / 64.0;
+            let far_enough = together.is_served(point) && point.distance(map.position()) >= map.far() / 64.0;
             if map.clip_plane().at(point) < 0.0 || !far_enough {
                 continue;
             }

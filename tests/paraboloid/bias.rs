@@ -2,10 +2,10 @@
 
 use glam::{DVec2, DVec3, Vec4Swizzles};
 use proptest::prelude::*;
-use shadowfit::{DepthFormat, Offset, Problem, Settings};
+use shadowfit::{DepthFormat, Offset, Origin, Problem, Settings};
 
 use super::{both, direction_about, from_light};
-use crate::arbitrary::{Numbers, case, run, settings};
+use crate::arbitrary::{Case, LightParams, Numbers, Pose, SceneParams, ViewParams, case, run, settings};
 use crate::claims::paraboloid::{noise_is_at_least_that_of_points, origin, texels_per_unit};
 
 /// What the shader writes for the texel at a place on the plane where `plane` · x = 1, the light in the middle, as a
@@ -74,6 +74,36 @@ fn noise_over_distances_is_at_least_that_of_points() {
     run(1000, &(case(), settings(), any::<u64>()), |(case, settings, seed)| {
         noise_is_at_least_that_of_points(&case, &settings, seed);
     });
+}
+
+/// Found by fuzzing: what is visible nearer to a lamp than its near distance, where f32 may be coarser than the bias says.
+#[test]
+fn a_lamp_whose_near_distance_is_more_than_a_64th_of_the_far_one() {
+    let eye = [-889_952.529_488_397_2, 3_960_198.508_393_239, -5_967_787.605_544_975];
+    let forward = [0.849_309_840_038_248_4, -0.507_314_636_319_967_9, -0.145_961_143_424_349_7];
+    let up = [-0.008_133_827_129_749_355, 0.966_213_227_623_424_5, -889_952.529_488_397_2];
+    let case = Case {
+        view: ViewParams::Perspective {
+            pose: Pose { eye, forward, up },
+            fov_y: 1.160_183_013_721_833_4,
+            aspect: 2.451_334_792_737_055_7,
+            near: 118_411.213_856_317_66,
+            far: Some(3_848_575.173_398_229),
+        },
+        light: LightParams::Point {
+            position: [-721_809.788_623_954_5, 2_568_868.675_100_858, -5_967_787.605_544_975],
+            near: 432_363.512_672_132_35,
+            range: Some(15_543_670.619_403_91),
+        },
+        scene: SceneParams::Bounds {
+            min: [-2_636_171.264_696_424_4, 2_516_576.100_060_51, -5_967_787.605_544_977],
+            max: [-721_809.788_623_954_5, 3_960_182.295_036_04, -2_417_422.639_127_861],
+        },
+    };
+    let settings = Settings::new(16384, 1080).expect("sound").with_origin(Origin::Eye);
+    for seed in 0..100 {
+        noise_is_at_least_that_of_points(&case, &settings, seed);
+    }
 }
 
 #[test]
