@@ -97,3 +97,55 @@ fn nearest_of_triangle(a: DVec3, b: DVec3, c: DVec3) -> Option<DVec3> {
     let inside = normal.dot(b.cross(c)) > 0.0 && normal.dot(c.cross(a)) > 0.0 && normal.dot(a.cross(b)) > 0.0;
     inside.then(|| normal * (normal.dot(a) / normal.length_squared()))
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use super::*;
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    /// The widest margin of the axes through the directions, between two of them, and as far from three of them.
+    fn by_trying_all(directions: &[DVec3]) -> f64 {
+        let mut axes = directions.to_vec();
+        for (i, a) in directions.iter().enumerate() {
+            for (j, b) in directions.iter().enumerate().skip(i + 1) {
+                axes.push(*a + *b);
+                axes.extend(directions[j + 1..].iter().map(|c| (*b - *a).cross(*c - *a)));
+            }
+        }
+        let margin = |axis: DVec3| directions.iter().map(|direction| direction.dot(axis)).fold(1.0, least);
+        let axes = axes.into_iter().filter_map(DVec3::try_normalize);
+        axes.flat_map(|axis| [margin(axis), margin(-axis)]).fold(-1.0, f64::max)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn no_axis_has_a_wider_margin(
+            directions in prop::collection::vec(prop::array::uniform3(-1.0..1.0), 1..9),
+            spread in prop_oneof![Just(0.01), 0.1..3.0, Just(3.0)],
+            few in any::<bool>(),
+        ) {
+            // About one direction, some of them the same or on one cone about it.
+            let about = |direction: &[f64; 3]| {
+                let direction = DVec3::from(*direction) * spread;
+                let direction = if few { direction.round() } else { direction };
+                (direction + DVec3::Z).try_normalize()
+            };
+            let directions: Vec<DVec3> = directions.iter().filter_map(about).collect();
+            prop_assume!(!directions.is_empty());
+            let best = by_trying_all(&directions);
+            match widest_margin(&directions) {
+                Some((axis, margin)) => {
+                    prop_assert!((axis.length() - 1.0).abs() <= 1e-15);
+                    prop_assert!((margin - best).abs() <= 1e-12, "{} of {}", margin, best);
+                }
+                // At no margin at all rounding decides.
+                None => prop_assert!(best <= 1e-12, "none of {}", best),
+            }
+        }
+    }
+}

@@ -291,7 +291,7 @@ fn casters_of_a_list_that_are_all_off_to_one_side() {
     let forward = [-0.982_455_607_628_362_5, -0.383_264_245_429_698_4, 0.186_496_592_568_296_23];
     let (fov_y, aspect) = (1.295_621_593_877_389, 0.693_009_676_189_929_9);
     let view =
-        View::perspective(eye, forward, DVec3::Y, fov_y, aspect, 0.059_711_555_603_759_98, 1178.171_356_658_947_2);
+        View::perspective(eye, forward, DVec3::Y, fov_y, aspect, 0.059_711_555_603_759_98, 1_178.171_356_658_947_2);
     let position = [705.324_430_724_851_4, 1_131.186_833_234_152_8, -313.517_486_177_905_14];
     let axis = [-0.126_285_209_196_612_26, -0.659_095_026_776_971_6, -0.741_381_003_004_548_9];
     let light = Light::hemisphere(position, axis, 116.734_752_513_018_92, f64::INFINITY);

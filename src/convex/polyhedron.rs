@@ -159,7 +159,7 @@ impl Polyhedron {
                 let Some(slot) = free.next() else { return };
                 let above = &mut self.vertices[inner];
                 let (p, q) = (below.planes[(k + 1) % 3], below.planes[(k + 2) % 3]);
-                above.replace_neighbour(outer as u8, slot as u8, [p, q]);
+                above.replace_neighbour([p, q], slot as u8);
                 let position =
                     between((above.position, self.values[inner]), (below.position, self.values[outer & LAST]));
                 // Its own neighbour until it finds another: no edge at all.
@@ -195,11 +195,11 @@ impl Polyhedron {
 }
 
 impl Vertex {
-    /// A neighbour along the edge on the planes `p` and `q` gives way to another. It may be a neighbour along a second
-    /// edge too.
-    fn replace_neighbour(&mut self, old: u8, new: u8, [p, q]: [PlaneId; 2]) {
+    /// The neighbour along the edge on the planes `p` and `q` gives way to another. Its name would not do to find it: two
+    /// vertices may be neighbours along two edges.
+    fn replace_neighbour(&mut self, [p, q]: [PlaneId; 2], new: u8) {
         for (neighbour, across) in self.neighbours.iter_mut().zip(self.planes) {
-            if *neighbour == old && across != p && across != q {
+            if across != p && across != q {
                 *neighbour = new;
             }
         }
@@ -231,4 +231,73 @@ pub(crate) fn box_planes(min: DVec3, max: DVec3) -> [Plane; 6] {
         Plane::new(DVec3::Z, -min.z),
         Plane::new(DVec3::NEG_Z, max.z),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use super::*;
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    /// What the proof rests on: each edge is known at both ends as the one on the same two planes.
+    fn assert_graph(body: &Polyhedron) {
+        for slot in Bits(body.alive) {
+            let vertex = &body.vertices[slot];
+            for k in 0..3 {
+                let edge = [vertex.planes[(k + 1) % 3], vertex.planes[(k + 2) % 3]];
+                let other = &body.vertices[usize::from(vertex.neighbours[k])];
+                assert!(body.alive >> vertex.neighbours[k] & 1 == 1, "{slot} is joined to nobody");
+                let across = (0..3).find(|&j| !edge.contains(&other.planes[j]));
+                let back = across.map(|j| usize::from(other.neighbours[j]));
+                assert!(edge.iter().all(|plane| other.planes.contains(plane)), "{vertex:?}, {other:?}");
+                assert_eq!(back, Some(slot), "the edge on {edge:?}");
+            }
+        }
+    }
+
+    /// Planes through small integers: most pass vertices, edges and faces, and many are there twice.
+    fn lattice_plane() -> impl Strategy<Value = Plane> {
+        let small = || prop::array::uniform3((-2..=2_i8).prop_map(f64::from));
+        (small(), small()).prop_map(|(normal, point)| Plane::through(normal.into(), point.into()))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 5000, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn edges_are_the_same_from_both_ends(
+            flat in prop::array::uniform3(any::<bool>()),
+            planes in prop::collection::vec(lattice_plane(), 0..20),
+            step in prop_oneof![Just(0.0), Just(f64::EPSILON), Just(1e-12)],
+        ) {
+            let half = DVec3::from(flat.map(|flat| if flat { 0.0 } else { 2.0 }));
+            let mut body = Polyhedron::from_box(-half, half);
+            assert_graph(&body);
+            for (id, plane) in (6..).zip(planes) {
+                // Moved a little, vertices fall on either side of planes that pass them.
+                body.clip(&Plane::new(plane.normal, plane.offset + step * f64::from(id % 3)), id);
+                assert_graph(&body);
+            }
+        }
+
+        /// More planes about a ball than there is room for vertices: some are left out, and the ball stays in.
+        #[test]
+        fn planes_that_find_no_room_are_left_out(
+            normals in prop::collection::vec(prop::array::uniform3(-1.0..1.0), 58),
+        ) {
+            let mut body = Polyhedron::from_box(DVec3::splat(-1.25), DVec3::splat(1.25));
+            let normals: Vec<DVec3> = normals.iter().filter_map(|n| DVec3::from(*n).try_normalize()).collect();
+            for (id, normal) in (6..).zip(&normals) {
+                body.clip(&Plane::new(*normal, 1.0), id);
+                assert_graph(&body);
+                for direction in normals.iter().chain(&DVec3::AXES) {
+                    let reach = body.positions().map(|point| point.dot(*direction)).fold(f64::NEG_INFINITY, f64::max);
+                    prop_assert!(reach >= 1.0 - 1e-12, "{direction}: {reach}");
+                }
+            }
+            prop_assert!(body.alive.count_ones() > 48, "room for more");
+        }
+    }
 }
