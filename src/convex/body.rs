@@ -11,8 +11,8 @@ use glam::DVec3;
 ///
 /// - No two vertices are equal.
 /// - Every vertex is inside every plane, up to a few roundings of its coordinates.
-/// - Planes stand a few dozen roundings outside of the exact body, so that the body holds it, and a point that is in the
-///   body by less than that may be outside of the exact one.
+/// - Planes stand 96 ε of the magnitudes of their terms outside of the exact body, so that the body holds it, and a point
+///   that is in the body by less than that may be outside of the exact one.
 /// - It holds its memory itself: a body is a few kilobytes and allocates nothing.
 #[derive(Clone, Debug)]
 pub struct Body {

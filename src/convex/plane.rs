@@ -74,8 +74,7 @@ impl Plane {
     /// which is 190, less than 192. Why no cut then loses anything is said at [`Polyhedron`](super::Polyhedron).
     ///
     /// Of the planes that a hull's plane is the sum of, it covers what the sum loses: each counts by the value of the
-    /// other at the light, which is right to 130 u of itself, and the division and the sum take 3 u
-    /// more.
+    /// other at the light, which is right to 130 u of itself, and the division and the sum take 3 u more.
     #[must_use]
     pub(crate) fn loosened(&self, extent: DVec3) -> Self {
         let magnitude = self.normal.abs().dot(extent) + self.offset.abs();
