@@ -137,6 +137,10 @@ pub(crate) const LEAST_HEIGHT: f64 = 1.0;
 /// The largest part of their distance to the lamp that receivers may be off by.
 const MOST_OF_DISTANCE: f64 = 1.0 / 8.0;
 
+/// The largest part of the depth range that a receiver is moved by, of either kind: with more than all of it, everything is
+/// lit already, and numbers beyond all measure would leave f32.
+const MOST_OF_RANGE: f64 = 2.0;
+
 /// Slopes are the next multiple of this, so that they stay the same while the rounding of f32 changes.
 const SLOPE_STEP: f64 = 1.0 / 16.0;
 
@@ -206,13 +210,18 @@ impl Map {
         // A unit may be less than a step by a little. A half is in the range of depths with the largest steps below 1.
         let short = (format.step(0.5) - format.bias_unit(0.5).start()).max(0.0);
         let receiver = times * constant + (on_the_way + 2.0 * of_slope) * over_w * change + short;
+        let (receiver, over_w) = (receiver.min(MOST_OF_RANGE), (times * over_w).min(MOST_OF_RANGE));
+        // Where the matrix has lost what an offset towards the light takes off depth, what rounding has left of it and of w
+        // must not grow instead.
+        let left = |row: usize| self.rows[row].on(self.light.homogeneous()).abs();
+        let to_light = to_light.max(left(2)).max(left(3));
         Ok(DepthBias {
             format,
             constant: 1,
             slope: stepped(slope),
             receiver,
-            relative: times * over_w / to_light,
-            most: receiver + times * over_w / least_w,
+            relative: over_w / to_light,
+            most: receiver + over_w / least_w,
             places,
         })
     }

@@ -168,7 +168,8 @@ fn fit_visible(
     let (warp, weakening) = match settings.warp() {
         Warp::Uniform => (Functional::ONE, 1.0),
         Warp::Perspective => {
-            let visible = warp::Visible { rays: &rays, points: visible.positions(), middle, origin };
+            let least = LEAST_PART * view.half_height(eye_depth.max);
+            let visible = warp::Visible { rays: &rays, points: visible.positions(), middle, origin, least };
             warp::perspective(&camera.rows(view), light.homogeneous(), &visible)
         }
     };

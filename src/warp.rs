@@ -16,6 +16,8 @@ pub(crate) struct Visible<'a, P> {
     pub(crate) middle: DVec2,
     /// What the f32 matrix takes positions relative to.
     pub(crate) origin: DVec3,
+    /// The length that is too small to see.
+    pub(crate) least: f64,
 }
 
 /// The perspective warp: w as the light's own camera has it, which stands at λ and looks at the middle of the unit cube
@@ -54,7 +56,8 @@ pub(crate) fn perspective<P: Iterator<Item = DVec3> + Clone>(
 ///   varies along its rays as well, which no warp can follow, and the part above 1 is multiplied by sin⁴ θ: a light at
 ///   right angles may use it all, a light along the view none. The exponent is a choice by measure (`cargo run
 ///   --release --example survey`): with smaller ones more views are worse off than without a warp;
-/// - c is large enough against the terms that it is summed from for f32 to evaluate it.
+/// - c is large enough against the terms that it is summed from for f32 to evaluate it, and against what it changes by over a
+///   length too small to see: all of a scene may be smaller, down to where the slope of c would leave f32.
 ///
 /// Both conditions are linear in κ, so that c changes continuously with everything it depends on, and c > 0 on R.
 fn weakened<P: Iterator<Item = DVec3> + Clone>(
@@ -71,7 +74,7 @@ fn weakened<P: Iterator<Item = DVec3> + Clone>(
     let magnitudes = |plane: &Plane| (plane.normal.abs(), plane.at(visible.origin).abs());
     let (warp_terms, uniform_terms) = (magnitudes(covector), magnitudes(&rays.w));
     for point in visible.points.clone() {
-        let arm = (point - visible.origin).abs();
+        let arm = (point - visible.origin).abs() + visible.least;
         let size = |(normal, offset): (DVec3, f64)| normal.dot(arm) + offset;
         let w = rays.w.at(point);
         let here = covector.at(point) / w;

@@ -16,7 +16,9 @@ use claims::results::exercise;
 use claims::scaling;
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
-use shadowfit::{Aabb, Body, ConvexScene, Focus, Light, Map, Origin, Plane, Scene, Settings, Shift, View, Warp};
+use shadowfit::{
+    Aabb, Body, ConvexScene, DepthFormat, Focus, Light, Map, Origin, Plane, Scene, Settings, Shift, View, Warp,
+};
 
 #[test]
 fn rays_keep_their_place_and_gain_depth() {
@@ -312,5 +314,26 @@ fn casters_of_a_list_that_are_all_off_to_one_side() {
         exercise(&view, &light, &scene, &settings);
         let map = *Focus::new(&view, &light, &scene).fit(&settings).map().expect("one map does");
         assert_eq!(map.depth().near, f64::INFINITY);
+    }
+}
+
+/// Found by fuzzing: a warp may change by its ratio over all that is visible, and where that has an extent of 10⁻³⁶ in a
+/// direction in which c changes, the slope of c all but left f32.
+#[test]
+fn a_slope_over_a_length_that_is_too_small_to_see() {
+    let scene = Scene::from_box(DVec3::ZERO, DVec3::Z * 14.054_687_5).expect("a legal scene");
+    let light = Light::point((1.261_168_617_892_335_4e-44, 0.0, 0.0), 0.996_093_75, 3.2e10).expect("a legal light");
+    for exponent in 30..=44 {
+        let eye = DVec3::splat(6.0 * 10_f64.powi(-exponent));
+        let up = (7.053_073_726_297_957e-38, 0.0, 1.0);
+        let (half, aspect) = (85.332_031_25, 85.332_031_25);
+        let view = View::orthographic(eye, DVec3::Y, up, half, aspect, -0.976_562_5, 0.0).expect("a legal view");
+        exercise(&view, &light, &scene, &Settings::default());
+        let map = *Focus::new(&view, &light, &scene).fit(&Settings::default()).map().expect("one map does");
+        // No more than a thousand by a billionth of what is seen.
+        let most = map.matrix().to_cols_array().into_iter().map(f32::abs).fold(0.0, f32::max);
+        assert!(most <= 1e13, "10^-{exponent}: {most:e}");
+        let bias = map.bias(DepthFormat::Unorm16, 0.5).expect("a legal reach");
+        assert!(map.texture_matrix_with(&bias.offset()).is_finite());
     }
 }

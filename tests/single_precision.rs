@@ -78,14 +78,14 @@ fn casters_that_are_as_deep_as_what_is_visible_and_far_from_the_origin() {
         far: Some(190.358_471_987_866_4),
     };
     let clip = ClipSpace::WGPU.reversed();
-    let side = 1671.242_475_484_479_2;
+    let side = 1_671.242_475_484_479_2;
     let case = Case {
         view: ViewParams::Matrices { pose, mirrored: false, scale: 100.0, frame, clip },
         light: LightParams::Hemisphere {
             position: [-side, 0.0, side],
             axis: [side, 0.103_132_681_771_291_23, -side],
             near: 2.954_281_989_746_755,
-            range: Some(2600.378_185_430_656_7),
+            range: Some(2_600.378_185_430_656_7),
         },
         scene: SceneParams::Bounds { min: [-side, 0.0, -side], max: [side, 0.206_265_363_542_582_46, side] },
     };

@@ -9,10 +9,11 @@ use crate::arbitrary::{Case, Numbers, SceneParams, Together, points_of};
 /// A row of a matrix at a point, and how far rounding can carry it.
 ///
 /// A row is a combination of planes through the light or the eye and through the middle of what is visible: a few dozen
-/// roundings of terms as large as its normal times those points.
+/// roundings of terms as large as its normal times those points. Axes are off by roundings of their length, also in a component
+/// that is zero or nearly so.
 fn at(row: DVec4, point: DVec3, reach: DVec3) -> (f64, f64) {
     const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
-    let terms = row.truncate().abs().dot(point.abs() + reach) + row.w.abs();
+    let terms = row.truncate().length() * (point.abs() + reach).length() + row.w.abs();
     // Terms may also be too small to be rounded like others.
     (row.dot(point.extend(1.0)), ROUNDINGS * terms + f64::MIN_POSITIVE)
 }

@@ -161,8 +161,10 @@ fn warp(setup: &Setup, frame: &Frame<Big>, visible: &[V3<Big>], chart: &Chart, m
     const PRECISION: f64 = 1.0 / 1024.0;
     let (first, last) = extent(visible.iter().map(|p| at(&frame.depth, p)));
     let near = first.most(big(setup.camera.near));
-    let far = last.most(near.clone() * big(1.0 + 1.0 / 1024.0));
+    let far = last.clone().most(near.clone() * big(1.0 + 1.0 / 1024.0));
     let ratio = near.clone() / far;
+    // A length too small to see, where what is visible is farthest.
+    let unseen = (big(setup.camera.fov_y) / big(2.0)).tan() * last * big(1.0 / 1_073_741_824.0);
     let z = times(
         &sub(&times(&frame.depth, &(big(1.0) + ratio.clone())), &times(&one(), &(big(2.0) * near))),
         &(big(1.0) / (big(1.0) - ratio)),
@@ -187,7 +189,7 @@ fn warp(setup: &Setup, frame: &Frame<Big>, visible: &[V3<Big>], chart: &Chart, m
     };
     let terms = |covector: &V4<Big>, p: &V3<Big>| {
         let arm = sub(p, &about);
-        (0..3).fold(at(covector, &about).abs(), |sum, i| sum + (covector[i].clone() * arm[i].clone()).abs())
+        (0..3).fold(at(covector, &about).abs(), |sum, i| sum + covector[i].abs() * (arm[i].abs() + unseen.clone()))
     };
     let mut for_f32 = big(0.0);
     for p in visible {
