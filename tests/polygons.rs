@@ -89,3 +89,13 @@ fn a_body_contains_what_is_inside_all_of_its_planes() {
     let aside = Scene::from_box((-16.0, 0.0, 20.0), (16.0, 8.0, 36.0)).expect("a scene");
     assert!(!Focus::new(&view, &sun, &aside).visible().contains(DVec3::ZERO));
 }
+
+/// The plane at infinity has no normal to make unit length.
+#[test]
+fn a_plane_without_a_normal_stays_as_it_is() {
+    assert_eq!(Plane::ONE.normalized(), Plane::ONE);
+    let plane = Plane::new(DVec3::new(0.0, 3.0, 4.0), 10.0).normalized();
+    assert!(
+        (plane.normal.length() - 1.0).abs() <= f64::EPSILON && (plane.offset - 2.0).abs() <= 2.0 * f64::EPSILON
+    );
+}
