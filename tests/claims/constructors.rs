@@ -160,27 +160,15 @@ pub(crate) fn take_any_bits(bytes: &[u8]) {
             let scene = Scene::from_box(bits.triple(), bits.triple());
             with_scene(&mut bits, &view, &light, scene, &settings);
         }
-        1 => {
-            let planes = |bits: &mut Bits<'_>| bits.list(14, |bits| Plane::new(bits.point(), bits.number()));
-            let body = ConvexScene::new(bits.triple(), bits.triple(), &planes(&mut bits));
-            with_scene(
-                &mut bits,
-                &view,
-                &light,
-                body.as_ref().map(Scene::from_convex).map_err(|error| *error),
-                &settings,
-            );
-        }
-        2 => {
-            let points = bits.list(8, Bits::point);
-            let body = ConvexScene::around(points);
-            with_scene(
-                &mut bits,
-                &view,
-                &light,
-                body.as_ref().map(Scene::from_convex).map_err(|error| *error),
-                &settings,
-            );
+        convex @ (1 | 2) => {
+            let body = if convex == 1 {
+                let planes = |bits: &mut Bits<'_>| bits.list(14, |bits| Plane::new(bits.point(), bits.number()));
+                ConvexScene::new(bits.triple(), bits.triple(), &planes(&mut bits))
+            } else {
+                ConvexScene::around(bits.list(8, Bits::point))
+            };
+            let scene = body.as_ref().map(Scene::from_convex).map_err(|error| *error);
+            with_scene(&mut bits, &view, &light, scene, &settings);
         }
         _ => {
             let (casters, receivers) = (bits.boxes(), bits.boxes());
