@@ -8,7 +8,8 @@ mod cases;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use shadowfit::glam::{DMat4, DVec3, Mat4, Vec3};
 use shadowfit::{
-    Aabb, ConvexScene, Focus, Form, InputError, Light, Outcome, Plane, Scene, Settings, classify, fit,
+    Aabb, ConvexScene, Cuts, Focus, Form, InputError, Light, Outcome, Plane, Scene, Settings, Slices, Split,
+    classify, fit,
 };
 use std::hint::black_box;
 
@@ -30,7 +31,9 @@ fn steps(criterion: &mut Criterion) -> Result<(), InputError> {
         let whole = focus();
         if let Outcome::Map(map) = whole.fit(&Settings::default()) {
             group.bench_function("report", |b| b.iter(|| map.report(black_box(&whole))));
+            group.bench_function("worst and mean aliasing", |b| b.iter(|| map.aliasing_over(black_box(&whole))));
         }
+        group.bench_function("limit", |b| b.iter(|| whole.limit(black_box(&Settings::default()))));
         group.finish();
     }
     if let Some(corners) = view.corners() {
@@ -98,6 +101,28 @@ fn growth(criterion: &mut Criterion) -> Result<(), InputError> {
     Ok(())
 }
 
+/// How cost grows with slices of the view: cutting it, and cutting and fitting. One slice is a plain fit and the search
+/// for what is visible.
+fn slices(criterion: &mut Criterion) -> Result<(), InputError> {
+    let (view, scene) = (cases::view()?, cases::scene()?);
+    let sun = Light::directional((0.3, 1.0, 0.4))?;
+    let settings = Settings::default();
+    let mut group = criterion.benchmark_group("slices");
+    group.bench_function("a plain fit, for comparison", |b| {
+        b.iter(|| fit(black_box(&view), black_box(&sun), &scene, &settings));
+    });
+    for count in 1..=Slices::MAX {
+        let cuts = Cuts::Visible { count, split: Split::Blended(0.5) };
+        let cut = || Slices::new(black_box(&view), black_box(&sun), &scene, cuts, 0.1);
+        group.bench_function(BenchmarkId::new("cut", count), |b| b.iter(cut));
+        group.bench_function(BenchmarkId::new("cut and fitted", count), |b| {
+            b.iter(|| cut().map(|slices| slices.fit(&settings).maps().count()));
+        });
+    }
+    group.finish();
+    Ok(())
+}
+
 /// The bounds of the town with `cuts` more planes.
 fn cut_scene(cuts: usize) -> Result<ConvexScene, InputError> {
     let planes: Vec<Plane> = (0..cuts)
@@ -146,7 +171,7 @@ fn naive_fit(corners: &[DVec3; 8], direction_to_light: DVec3) -> Mat4 {
 }
 
 fn all(criterion: &mut Criterion) {
-    let results = [steps(criterion), culling(criterion), growth(criterion)];
+    let results = [steps(criterion), culling(criterion), growth(criterion), slices(criterion)];
     if let Some(error) = results.into_iter().find_map(Result::err) {
         panic!("a case of the benchmark is no valid input: {error}");
     }

@@ -8,7 +8,7 @@ use crate::rounding::QUIET;
 /// What lies where along the axis of a map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Along {
-    /// Distance along the axis from the light, or from the eye when the light is infinitely far away.
+    /// Distance along the axis from the light or, when it is infinitely far away, from a point of the map's own.
     distance: Plane,
     /// Where anything is visible.
     visible: Interval,
@@ -24,6 +24,11 @@ impl Along {
         let missing = 0.5 * (least.max(QUIET * rounding) - (visible.max - nearest)).max(0.0);
         let range = Interval { min: nearest - rounding - missing, max: visible.max + rounding + missing };
         Self { distance: rays.along, visible, range }
+    }
+
+    /// The same with another range of linear depth.
+    pub(crate) fn with_range(self, range: impl FnOnce(&Interval) -> Interval) -> Self {
+        Self { range: range(&self.range), ..self }
     }
 
     /// Distance as depth from 0 to 1.

@@ -66,9 +66,10 @@ impl CubeFace {
 
     /// The overlap of neighbouring faces with which a filter that reads `reach` texels to each side of a point finds, in
     /// the uniform map of the face that the point is in, all casters that it should: for
-    /// [`Light::cube_face`](crate::Light::cube_face). Maps have `map_size` texels a side, `border` of them around what is
-    /// visible. At most [`Self::MAX_OVERLAP`], which falls short where a map has fewer than 40 texels for each of
-    /// `reach`; 0 for a `reach` that is negative or no number.
+    /// [`Light::cube_face`](crate::Light::cube_face). Maps have `map_size` texels a side, or on the shorter one
+    /// ([`Settings::map_size`](crate::Settings::map_size)), `border` of them around what is visible. At most
+    /// [`Self::MAX_OVERLAP`], which falls short where a map has fewer than 40 texels for each of `reach`; 0 for a `reach`
+    /// that is negative or no number.
     ///
     /// Let o be the overlap, r the reach, and n the texels within the border. What is visible in the widened face lies
     /// in a cone of tangent √2 (1 + o) around the face's axis, and no cone that holds it is narrower than the one whose

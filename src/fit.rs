@@ -1,6 +1,7 @@
 //! The fit: window, depth row and matrix from a focus and a warp.
 
 use crate::along::Along;
+use crate::best;
 use crate::bounds::{Interval, Rectangle, least, most};
 use crate::convex::Polyhedron;
 use crate::focus::{Focus, VIEW_IDS, clip_all};
@@ -8,12 +9,13 @@ use crate::homography::Homography;
 use crate::light::Light;
 use crate::map::{DepthSpan, Map, Window};
 use crate::perspective::VirtualCamera;
-use crate::rays::{Functional, Rays};
+use crate::rays::Rays;
 use crate::rounding::{self, Rounding};
 use crate::scene::{Region, Scene};
 use crate::settings::{Origin, Settings, Shift, Warp};
+use crate::stable::Stable;
 use crate::view::View;
-use crate::warp;
+use crate::warp::{self, Proposed, light_space, perspective, trapezoidal};
 use core::fmt;
 use glam::{DVec3, DVec4};
 
@@ -107,23 +109,37 @@ impl Focus<'_> {
     /// Fits one shadow map.
     #[must_use]
     pub fn fit(&self, settings: &Settings) -> Outcome {
+        self.fit_after(None, settings)
+    }
+
+    /// Fits one shadow map where there was another the frame before, of a view and a light that were not much different.
+    ///
+    /// Only [`Warp::Best`] makes something of that: it begins where the last search ended, which takes less than half of the
+    /// time, and stays with the same local minimum while there is one and no closed form is better. [`Map::switched`] says
+    /// when it jumped. All else is as by [`Self::fit`].
+    #[must_use]
+    pub fn fit_from(&self, before: &Map, settings: &Settings) -> Outcome {
+        self.fit_after(Some(before), settings)
+    }
+
+    fn fit_after(&self, before: Option<&Map>, settings: &Settings) -> Outcome {
         // One body after another in the same memory: H where the camera is moved back by it, R, and what can cast
         // into the window.
         let mut body = Polyhedron::EMPTY;
         let depths = match (settings.warp(), settings.shift()) {
-            // Without a warp it does not matter where its camera stands.
-            (Warp::Uniform, _) | (Warp::Perspective, Shift::None) => None,
-            (Warp::Perspective, Shift::Back(form)) => {
+            // Only the perspective warp has a camera to move.
+            (Warp::Perspective | Warp::Best(_), Shift::Back(form)) => {
                 self.cut_body(&mut body, form, |_, _| ());
                 Some(VirtualCamera::depths(self.view(), body.positions()))
             }
+            _ => None,
         };
         self.cut_visible(&mut body, |_, _| ());
         if body.is_empty() {
             return Outcome::Empty(Empty::NothingVisible);
         }
         match &self.casters {
-            Some(casters) => fit_visible(self, &mut body, casters, depths, settings),
+            Some(casters) => fit_visible(self, &mut body, casters, depths, before, settings),
             None => Outcome::Empty(Empty::NothingCasts),
         }
     }
@@ -134,11 +150,23 @@ fn fit_visible(
     body: &mut Polyhedron,
     casters: &Region<'_>,
     depths: Option<Interval>,
+    before: Option<&Map>,
     settings: &Settings,
 ) -> Outcome {
     let visible = &*body;
     let (view, light) = (focus.view(), focus.light());
-    let Ok(rays) = Rays::new(focus, visible.positions()) else {
+    let (stable, refusal) = match settings.warp() {
+        Warp::Stable => match Stable::new(focus, visible.positions(), settings) {
+            Ok(stable) => (Some(stable), None),
+            Err(refusal) => (None, Some(refusal)),
+        },
+        _ => (None, None),
+    };
+    let rays = match &stable {
+        Some(stable) => Ok(stable.rays(light)),
+        None => Rays::new(focus, visible.positions()),
+    };
+    let Ok(rays) = rays else {
         return Outcome::Surrounded(Surrounded);
     };
     let origin = match settings.origin() {
@@ -156,7 +184,8 @@ fn fit_visible(
         along.include(rays.along.at(point));
         eye_depth.include(view.depth(point));
     }
-    let middle = Rectangle::over(&u, &v).centre;
+    let middle = stable.as_ref().map_or_else(|| Rectangle::over(&u, &v).centre, Stable::middle);
+    let zero = stable.as_ref().map_or(along.middle(), |stable| stable.zero(along.middle()));
 
     // The warp.
     let camera = match depths {
@@ -165,15 +194,35 @@ fn fit_visible(
         Some(depths) if depths.min > depths.max => return Outcome::Empty(Empty::NothingCasts),
         Some(depths) => VirtualCamera::moved_back(view, &depths),
     };
-    let (warp, weakening) = match settings.warp() {
-        Warp::Uniform => (Functional::ONE, 1.0),
-        Warp::Perspective => {
-            let least = LEAST_PART * view.half_height(eye_depth.max);
-            let visible = warp::Visible { rays: &rays, points: visible.positions(), middle, origin, least };
-            warp::perspective(&camera.rows(view), light.homogeneous(), &visible)
+    let mut switched = false;
+    let proposed = {
+        let seen = warp::Visible {
+            view,
+            l: light.homogeneous(),
+            rays: &rays,
+            points: visible.positions(),
+            middle,
+            along: along.middle(),
+            eye_depth,
+            origin,
+            least: LEAST_PART * view.half_height(eye_depth.max),
+        };
+        let perspective = || perspective::propose(&seen, &camera.rows(view));
+        match settings.warp() {
+            Warp::Uniform | Warp::Stable => refusal.map_or(Ok(Proposed::UNIFORM), Err),
+            Warp::Perspective => Ok(perspective()),
+            Warp::LightSpace => light_space::propose(&seen),
+            Warp::Trapezoidal => trapezoidal::propose(&seen),
+            Warp::Best(effort) => {
+                let before = before.map(|map| (&map.rows, map.weakening));
+                let chosen = best::choose(&seen, visible.edges(), perspective(), effort, settings, before);
+                switched = chosen.switched;
+                Ok(chosen.proposed)
+            }
         }
     };
-    let map = Homography::new(&rays, middle, warp, along.middle());
+    let Proposed { warp, weakening, frame } = proposed.unwrap_or(Proposed::UNIFORM);
+    let map = Homography::new(&rays, middle, &frame, &warp, zero);
 
     // The window: what R covers. Nothing else in hull(R, l) can widen it.
     let (mut x, mut y, mut depth) = (Interval::EMPTY, Interval::EMPTY, Interval::EMPTY);
@@ -202,7 +251,8 @@ fn fit_visible(
 
     // The depth range: from the first caster in the window, its border included, to the last of what is visible.
     // H alone would do for the texels that R covers, but a filter reads those around them too.
-    let bordered = window.with_half(window.half / settings.inner());
+    let bordered =
+        stable.as_ref().map_or_else(|| window.with_half(window.half / settings.inner()), Stable::least_window);
     let least_c = map.least_c(&rays, &bordered, light.near());
     let mut rounding = Rounding::new(&map, &rays, origin, &c, least_c);
     for point in visible.positions() {
@@ -230,28 +280,42 @@ fn fit_visible(
     }
 
     let smallest = LEAST_PART * seen;
-    let half = rounding.padded_window(&window, settings.inner(), settings.map_size(), smallest);
-    let padded = window.with_half(half);
+    let half = |window: &Rectangle| rounding.padded_window(window, settings.inner(), settings.sides(), smallest);
+    let padded =
+        stable.as_ref().map_or_else(|| window.with_half(half(&window)), |stable| stable.window(&window, half));
     let casters = casting.positions().map(|point| (point, map.at(point)));
     let deepest = casters.map(|(point, values)| rounding.deepest(point, values.z, c_of(values), &depth));
     let padded_depth = rounding.padded_depth(&depth, deepest.fold(depth.max, most), smallest);
+    let row = rounding::of_row(&rays.along, origin, reach);
+    let linear = Along::new(&rays, nearest, along, row, smallest);
+    // w is at most 1 on what is visible, whatever the units.
+    let (padded_depth, linear, largest) = match &stable {
+        None => (padded_depth, linear, c.max),
+        Some(stable) => (
+            stable.in_depth_steps(zero, &padded_depth),
+            linear.with_range(|range| stable.in_steps(range)),
+            stable.largest_w(light, c.max),
+        ),
+    };
     // What is so far from a lamp has at least so much c, whatever the warp; under a directional light there is none beside.
     let away_c = if rays.local { ratio.min * along.max * AWAY_FROM_LAMP } else { c.min };
     // −e·l.
-    let to_light = if rays.local { along.middle() } else { 1.0 };
-    let noise = rounding.in_map(&map, &padded, &padded_depth, settings.map_size(), [away_c, to_light]);
+    let to_light = if rays.local { zero } else { 1.0 };
+    let noise =
+        rounding.scaled_to(largest).in_map(&map, &padded, &padded_depth, settings.sides(), [away_c, to_light]);
     Outcome::Map(Map {
-        // w is at most 1 on what is visible, whatever the units.
-        rows: map.rows_to(&padded, &padded_depth, c.max.recip()),
+        rows: map.rows_to(&padded, &padded_depth, largest.recip()),
         view: *view,
         light: *light,
         settings: *settings,
         camera,
         window: Window::new(&window, &padded, settings.inner(), noise.place.most),
-        depth: DepthSpan::new(&rays, along.middle(), &padded_depth, noise.depth.most),
+        depth: DepthSpan::new(&rays, zero, &padded_depth, view.eye(), noise.depth.most),
         noise,
-        along: Along::new(&rays, nearest, along, rounding::of_row(&rays.along, origin, reach), smallest),
+        along: linear,
         weakening,
+        refusal: proposed.err(),
+        switched,
         warp_ratio: ratio.max / ratio.min,
     })
 }

@@ -121,6 +121,11 @@ impl<'a> Focus<'a> {
         Body::new(&body, planes)
     }
 
+    /// S itself, unless casters and receivers have lists: what is known of those changes with the view.
+    pub(crate) fn scene(&self) -> Option<&Region<'a>> {
+        if self.separate { None } else { self.receivers.as_ref() }
+    }
+
     /// Makes R of any body, telling `each` which planes bound it.
     pub(crate) fn cut_visible(&self, body: &mut Polyhedron, each: impl FnMut(Plane, PlaneId)) {
         body.clear();

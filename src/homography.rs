@@ -3,7 +3,7 @@
 use crate::bounds::{Interval, Rectangle, most};
 use crate::convex::{Plane, matrix_from_rows};
 use crate::rays::{Functional, Rays};
-use glam::{DMat4, DVec2, DVec3, DVec4};
+use glam::{DMat2, DMat4, DVec2, DVec3, DVec4};
 
 /// Three covectors that vanish at the light, and a depth row that does not (DESIGN section 2):
 ///
@@ -11,8 +11,9 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 ///     u = a·X / c·X      v = b·X / c·X      z = e·X / c·X
 /// ```
 ///
-/// a and b vanish on the ray through the middle of what is visible and c is the uniform map's w there, so that u and v
-/// are isometric across that ray. e·l < 0 and c > 0 on everything visible: z grows away from the light in every class.
+/// a and b vanish on the ray through the middle of what is visible and c is the uniform map's w there, where u and v
+/// grow by 1 along the unit vectors of a frame across that ray; they are isometric there if it is orthonormal. e·l < 0
+/// and c > 0 on everything visible: z grows away from the light in every class.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Homography {
     a: Plane,
@@ -23,18 +24,38 @@ pub(crate) struct Homography {
     pub(crate) rows: DMat4,
     /// The middle of what is visible, on the chart.
     middle: DVec2,
-    /// c as a function on the chart.
-    warp: Functional,
+    /// From (u, v), next to the middle, to the chart.
+    chart_from_window: DMat2,
+    /// How c grows with u and v there.
+    slope: DVec2,
+}
+
+/// Two unit vectors on the chart, along which u and v grow in the middle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Frame {
+    pub(crate) u: DVec2,
+    pub(crate) v: DVec2,
+}
+
+impl Frame {
+    /// The chart's own.
+    pub(crate) const CHART: Self = Self { u: DVec2::X, v: DVec2::Y };
+
+    /// The rows a, b and c, as functions on the chart, of the homography with the middle and c.
+    pub(crate) fn rows(&self, middle: DVec2, warp: &Functional) -> [Functional; 3] {
+        let row = |along: DVec2| Functional { slope: along, constant: -along.dot(middle) };
+        [row(self.u), row(self.v), *warp]
+    }
 }
 
 impl Homography {
     /// The homography with w = `warp`, 1 at `middle`, and zero depth at distance `along` along the axis.
-    pub(crate) fn new(rays: &Rays, middle: DVec2, warp: Functional, along: f64) -> Self {
-        let a = rays.u - rays.w * middle.x;
-        let b = rays.v - rays.w * middle.y;
-        let c = rays.covector(&warp);
+    pub(crate) fn new(rays: &Rays, middle: DVec2, frame: &Frame, warp: &Functional, along: f64) -> Self {
+        let [a, b, c] = frame.rows(middle, warp).map(|row| rays.covector(&row));
         let e = rays.along - Plane::ONE * along;
-        Self { a, b, c, e, rows: matrix_from_rows([a, b, e, c]), middle, warp }
+        let chart_from_window = DMat2::from_cols(frame.u, frame.v).transpose().inverse();
+        let slope = chart_from_window.transpose() * warp.slope;
+        Self { a, b, c, e, rows: matrix_from_rows([a, b, e, c]), middle, chart_from_window, slope }
     }
 
     /// (a, b, e, c) · X.
@@ -51,10 +72,10 @@ impl Homography {
     }
 
     /// How much the uniform map's w changes where c is 1, from a texel to the next one across and to the next one down
-    /// together, in a window of `size` texels a side.
-    pub(crate) fn change_of_inverse_c(&self, window: &Rectangle, size: u32) -> f64 {
-        // There w is 1 − slope · (u, v), as in `least_c`.
-        self.warp.slope.abs().dot(window.half) * 2.0 / f64::from(size)
+    /// together, in a window of so many texels across and down.
+    pub(crate) fn change_of_inverse_c(&self, window: &Rectangle, sides: DVec2) -> f64 {
+        // There w is 1 − slope · (u, v), as in `least_c`. Texels are counted by those across.
+        self.slope.abs().dot(window.half * (sides.x / sides)) * 2.0 / sides.x
     }
 
     /// The least c of anything in the window that is no nearer to the light than `near`.
@@ -64,8 +85,9 @@ impl Homography {
         // directional light reaches, w = 1, has c = 1/w(D). |D| is convex over the window, and so is w(D), so that the
         // corners decide.
         let farthest = window.corners().map(|corner| {
-            let w = 1.0 - self.warp.slope.dot(corner);
-            if rays.local { rays.direction(self.middle * w + corner, w).length() / near } else { w }
+            let w = 1.0 - self.slope.dot(corner);
+            let across = self.middle * w + self.chart_from_window * corner;
+            if rays.local { rays.direction(across, w).length() / near } else { w }
         });
         farthest.into_iter().fold(f64::MIN_POSITIVE, most).recip()
     }

@@ -6,12 +6,13 @@
 //! 1. the focus body `H = hull(V, l) ∩ S ∩ L`: every point that must appear in the shadow map ([`Focus`], [`Body`]);
 //! 2. the class of the light after the camera's perspective ([`classify`]);
 //! 3. the virtual camera and its back-shift ([`VirtualCamera`]);
-//! 4. one 4×4 matrix, world → shadow clip space ([`fit`], [`Map`]);
-//! 5. what the matrix costs and gives: texel footprints, aliasing, depth resolution ([`Report`]), and the casters to
-//!    draw ([`Body::meets_box`], [`Culler`]).
+//! 4. one 4×4 matrix, world → shadow clip space ([`fit`], [`Map`]): uniform, warped as one of three papers has it, or the best
+//!    that a search finds ([`Warp`]);
+//! 5. what the matrix costs and gives: texel footprints, aliasing, depth resolution ([`Report`]), how much is left to gain
+//!    ([`Focus::limit`]), and the casters to draw ([`Body::meets_box`], [`Culler`]).
 //!
 //! For lights that one frustum cannot serve there are the faces of a cube ([`Light::cube_face`]) and paraboloid maps
-//! ([`Focus::paraboloids`]). How depth is tested is part of a shadow too: the bias that a map needs ([`Map::bias`]),
+//! ([`Focus::paraboloids`]), and for views that one map is too coarse for, slices of them ([`Slices`]). How depth is tested is part of a shadow too: the bias that a map needs ([`Map::bias`]),
 //! second depth, which needs none ([`DepthTest`], [`Solidity`]), virtual samples ([`TangentPlane`]), and splats for points
 //! ([`Map::splat`]).
 //!
@@ -19,7 +20,7 @@
 //! and why.
 //!
 //! ```
-//! use shadowfit::{Focus, Form, Light, Outcome, Scene, Settings, View, Warp, classify, fit};
+//! use shadowfit::{Effort, Focus, Form, Light, Outcome, Scene, Settings, View, Warp, classify, fit};
 //!
 //! # fn main() -> Result<(), shadowfit::InputError> {
 //! let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 500.0)?;
@@ -38,15 +39,17 @@
 //! let focus = Focus::new(&view, &sun, &scene);
 //! let body = focus.body(Form::Tight);
 //! println!("draw the tree: {}", body.meets_box((3.0, 0.0, -9.0), (5.0, 4.0, -7.0)));
-//! if let Some(map) = focus.fit(&Settings::new(2048, 1080)?.with_warp(Warp::Uniform)).map() {
-//!     println!("a texel is at worst {} pixels long", map.report(&focus).aliasing);
+//! let settings = Settings::new(2048, 1080)?.with_warp(Warp::Best(Effort::Good));
+//! if let Some(map) = focus.fit(&settings).map() {
+//!     let aliasing = map.report(&focus).aliasing;
+//!     println!("a texel is at worst {aliasing} pixels long, and could be {}", focus.limit(&settings));
 //! }
 //! # Ok(())
 //! # }
 //! ```
 //!
-//! Data flows one way, and the modules in its order: view, light, scene → convex → focus → perspective → rays → warp →
-//! homography → fit → map, paraboloid → bias, virtual samples, splats → plan.
+//! Data flows one way, and the modules in its order: view, light, scene → convex → focus → perspective → rays → warp → best →
+//! homography → fit → map → aliasing, limit; paraboloid, slices → bias, virtual samples, splats → plan.
 //!
 //! # Conventions
 //!
@@ -64,8 +67,11 @@
 //!
 //! Perspective shadow maps: Stamminger & Drettakis, SIGGRAPH 2002. Texture-space matrices, depth precision: Kilgard,
 //! *Shadow Mapping with Today's OpenGL Hardware*, GDC 2000. Second depth and virtual samples: Wang & Molnar, *Second-Depth
-//! Shadow Mapping*, UNC TR94-019, 1994. Paraboloid maps: Brabec, Annen & Seidel, *Shadow Mapping for Hemispherical and
-//! Omnidirectional Light Sources*, CGI 2002. Aliasing of warped maps: Lloyd, Tuft, Yoon & Manocha, EGSR 2006.
+//! Shadow Mapping*, UNC TR94-019, 1994. Light-space perspective: Wimmer, Scherzer & Purgathofer, EGSR 2004. Trapezoidal
+//! maps: Martin & Tan, *Anti-aliasing and Continuity with Trapezoidal Shadow Maps*, EGSR 2004. Slices: Zhang, Sun, Xu & Lun,
+//! *Parallel-Split Shadow Maps for Large-scale Virtual Environments*, VRCIA 2006. Paraboloid maps: Brabec, Annen & Seidel,
+//! *Shadow Mapping for Hemispherical and Omnidirectional Light Sources*, CGI 2002. Aliasing of warped maps: Lloyd, Tuft, Yoon
+//! & Manocha, EGSR 2006.
 //!
 //! # Features
 //!
@@ -85,9 +91,11 @@
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
+mod aliasing;
 mod along;
 mod angle;
 mod axis;
+mod best;
 mod bias;
 mod bounds;
 mod clip_space;
@@ -103,7 +111,9 @@ mod frame;
 mod homography;
 #[cfg(feature = "serde")]
 mod infinity;
+mod integral;
 mod light;
+mod limit;
 mod map;
 mod offset;
 mod paraboloid;
@@ -116,20 +126,24 @@ mod quality;
 mod rays;
 #[cfg(feature = "spade")]
 mod refine;
+mod refusal;
 mod rounding;
 mod scene;
 #[cfg(feature = "std")]
 mod second_depth;
 mod settings;
+mod slices;
 #[cfg(feature = "std")]
 mod solidity;
 mod splat;
+mod stable;
 mod view;
 mod virtual_sample;
 mod warp;
 #[cfg(feature = "wgsl")]
 pub mod wgsl;
 
+pub use aliasing::Aliasing;
 pub use bias::DepthBias;
 pub use clip_space::{ClipSpace, DepthRange, TextureOrigin, YAxis};
 pub use convex::{Body, Face, Plane};
@@ -150,10 +164,12 @@ pub use plan::{Budget, Kind, LightPlan, Object, Objects, Pass, Plan, Projection,
 pub use quality::{DepthFormat, Footprint};
 #[cfg(feature = "spade")]
 pub use refine::{Added, Refined, Refiner};
+pub use refusal::Refusal;
 pub use scene::{Aabb, ConvexScene, Scene};
 #[cfg(feature = "std")]
 pub use second_depth::{Culling, DepthTest};
-pub use settings::{Origin, Settings, Shift, Warp};
+pub use settings::{Effort, Origin, Settings, Shift, Warp};
+pub use slices::{Cuts, Extent, Layout, Slice, SliceMaps, SliceUniform, Slices, SlicesReport, Split, Tile};
 #[cfg(feature = "std")]
 pub use solidity::{Sheet, Solidity, SolidityReport};
 pub use splat::Splat;

@@ -253,6 +253,24 @@ impl Light {
         planes
     }
 
+    /// The axes across and along the one frustum that is L, and the tangent of its sides: `[u, v, axis]`, of a spot or a
+    /// cube's face; seen along the axis, v is up and u to the right.
+    pub(crate) fn frustum(&self) -> Option<([DVec3; 3], f64)> {
+        match self.kind {
+            Kind::Local { shape: Shape::Spot { axis, half_angle }, .. } => {
+                let (sine, cosine) = angle::sine_cosine(half_angle);
+                let (u, v) = crate::frame::across(axis, DVec3::NEG_Z, DVec3::Y);
+                Some(([u, v, axis], sine / cosine))
+            }
+            Kind::Local { shape: Shape::CubeFace { face, overlap, .. }, .. } => {
+                let axis = face.axis();
+                let v = DVec3::new(axis.z, axis.x, axis.y);
+                Some(([axis.cross(v), v, axis], 1.0 + overlap))
+            }
+            _ => None,
+        }
+    }
+
     /// The most planes that L can have: those of a hemisphere's cube face.
     pub(crate) const MAX_PLANES: usize = 7;
 }

@@ -10,6 +10,7 @@ use crate::offset::Offset;
 use crate::perspective::{LightClass, VirtualCamera, classify};
 use crate::quality::{DepthFormat, Footprint, depth_resolution, depth_slopes, footprint, linear_depth_resolution};
 use crate::rays::Rays;
+use crate::refusal::Refusal;
 use crate::rounding::MapNoise;
 use crate::settings::{Origin, Settings, Warp};
 use crate::view::View;
@@ -42,6 +43,8 @@ pub struct Map {
     pub(crate) along: Along,
     pub(crate) noise: MapNoise,
     pub(crate) weakening: f64,
+    pub(crate) refusal: Option<Refusal>,
+    pub(crate) switched: bool,
     pub(crate) warp_ratio: f64,
 }
 
@@ -55,7 +58,8 @@ pub struct Window {
     /// Height, in the same units.
     pub height: f64,
     /// The part of the width and height that is neither border nor needed by what is visible, added to cover the
-    /// rounding of the f32 matrix or because what is visible has no extent of its own.
+    /// rounding of the f32 matrix, because what is visible has no extent of its own, or, in a stable map, as room for
+    /// all that the camera may turn to.
     pub padding: (f64, f64),
     /// How far f32 can carry anything visible across the map, in the matrix and in positions, in texels:
     /// thousandths of one in most uniform maps, more where a strong warp or coordinates far out cost f32 its last bits.
@@ -64,14 +68,9 @@ pub struct Window {
 }
 
 impl Window {
-    pub(crate) fn new(needed: &Rectangle, padded: &Rectangle, inner: f64, rounding: f64) -> Self {
-        let share = |needed: f64, padded: f64| 1.0 - needed / (padded * inner);
-        Self {
-            width: 2.0 * padded.half.x,
-            height: 2.0 * padded.half.y,
-            padding: (share(needed.half.x, padded.half.x), share(needed.half.y, padded.half.y)),
-            rounding,
-        }
+    pub(crate) fn new(needed: &Rectangle, padded: &Rectangle, inner: DVec2, rounding: f64) -> Self {
+        let padding = 1.0 - needed.half / (padded.half * inner);
+        Self { width: 2.0 * padded.half.x, height: 2.0 * padded.half.y, padding: padding.into(), rounding }
     }
 }
 
@@ -97,13 +96,13 @@ pub struct DepthSpan {
 }
 
 impl DepthSpan {
-    /// From depths of the homography, whose depth 0 is at distance `zero` along the axis.
-    pub(crate) fn new(rays: &Rays, zero: f64, depth: &Interval, rounding: f64) -> Self {
+    /// From depths of the homography, whose depth 0 is at distance `zero` along the axis, seen from `eye`.
+    pub(crate) fn new(rays: &Rays, zero: f64, depth: &Interval, eye: DVec3, rounding: f64) -> Self {
         // On the ray in the middle c is w: z = along − zero for a directional light, 1 − zero/along for any other.
         let along = |z: f64| match rays.local {
             true if z < 1.0 => zero / (1.0 - z),
             true => f64::INFINITY,
-            false => zero + z,
+            false => zero + z - rays.along.at(eye),
         };
         Self { near: along(depth.min), far: along(depth.max), rounding }
     }
@@ -169,7 +168,7 @@ impl Map {
     }
 
     /// The matrix for positions relative to the origin of the settings.
-    fn about_origin(&self, from_world: DMat4) -> DMat4 {
+    pub(crate) fn about_origin(&self, from_world: DMat4) -> DMat4 {
         match self.settings.origin() {
             Origin::World => from_world,
             Origin::Eye => from_world * DMat4::from_translation(self.view.eye()),
@@ -179,7 +178,7 @@ impl Map {
     /// What one texel covers at a point, across the ray from the light; `None` outside of the map (w ≤ 0).
     #[must_use]
     pub fn footprint(&self, point: DVec3) -> Option<Footprint> {
-        footprint(&self.rows, -self.light.direction_from(point), point, self.settings.map_size())
+        footprint(&self.rows, -self.light.direction_from(point), point, self.settings.sides())
     }
 
     /// Aliasing at a point: the longer side of a texel's footprint over the side of a pixel's, both across their rays.
@@ -206,7 +205,7 @@ impl Map {
     /// map and where the light sees the plane from its edge.
     #[must_use]
     pub fn depth_slopes(&self, point: DVec3, normal: DVec3) -> Option<DVec2> {
-        depth_slopes(&self.rows, point, normal, self.settings.map_size())
+        depth_slopes(&self.rows, point, normal, self.settings.sides())
     }
 
     /// How far f32 can carry the depth of a visible point no nearer to the light than its near distance, in the matrix and
@@ -273,6 +272,12 @@ impl Map {
         &self.depth
     }
 
+    /// Why the map is the uniform one although another was asked for; `None` where it is what was asked for.
+    #[must_use]
+    pub const fn refusal(&self) -> Option<Refusal> {
+        self.refusal
+    }
+
     /// The largest w over the least w on what is visible, against the uniform map's: how strong the warp is. 1 for a
     /// uniform map.
     #[must_use]
@@ -287,6 +292,13 @@ impl Map {
         self.weakening
     }
 
+    /// Whether something visible jumps by more than a 32nd of the map from the map before to this one
+    /// ([`Focus::fit_from`]): because the local minimum that the search stayed with is no more, or is worse than a closed form.
+    #[must_use]
+    pub const fn switched(&self) -> bool {
+        self.switched
+    }
+
     /// The whole report. `focus` is the one that the map was fitted from.
     #[must_use]
     pub fn report(&self, focus: &Focus<'_>) -> Report {
@@ -298,6 +310,7 @@ impl Map {
             body: focus.body(Form::Tight),
             camera: self.camera,
             warp: self.settings.warp(),
+            refusal: self.refusal,
             weakening: self.weakening,
             warp_ratio: self.warp_ratio,
             window: self.window,
@@ -327,6 +340,8 @@ pub struct Report {
     pub camera: VirtualCamera,
     /// The warp that was asked for.
     pub warp: Warp,
+    /// Why it could not be made, see [`Map::refusal`].
+    pub refusal: Option<Refusal>,
     /// How much of it is left out, see [`Map::weakening`].
     pub weakening: f64,
     /// How strong the warp is, see [`Map::warp_ratio`].
@@ -337,7 +352,8 @@ pub struct Report {
     pub depth: DepthSpan,
     /// The longest side of a texel's footprint over the vertices of R, in world units.
     pub texel: f64,
-    /// The worst aliasing over the vertices of R, see [`Map::aliasing`].
+    /// The worst aliasing over the vertices of R, see [`Map::aliasing`]. There may be more between them:
+    /// [`Map::aliasing_over`] finds that, and the mean.
     pub aliasing: f64,
     /// The coarsest depth resolution over the vertices of R.
     pub depth_resolution: DepthResolution,

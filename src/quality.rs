@@ -97,8 +97,8 @@ impl DepthFormat {
     }
 }
 
-/// The footprint at a point of a texel of a map of `size` texels a side, for a unit ray away from the light.
-pub(crate) fn footprint(rows: &[Plane; 4], ray: DVec3, point: DVec3, size: u32) -> Option<Footprint> {
+/// The footprint at a point of a texel of a map of so many texels across and down, for a unit ray away from the light.
+pub(crate) fn footprint(rows: &[Plane; 4], ray: DVec3, point: DVec3, sides: DVec2) -> Option<Footprint> {
     let [x, y, _, w] = rows;
     let at = w.at(point);
     if at <= 0.0 || at.is_nan() {
@@ -108,8 +108,8 @@ pub(crate) fn footprint(rows: &[Plane; 4], ray: DVec3, point: DVec3, size: u32) 
     let (x, y) = (gradient(x, w, point), gradient(y, w, point));
     let (along_x, along_y) = (y.cross(ray), ray.cross(x));
     // Clip space is two units wide.
-    let texel = 2.0 / f64::from(size) / x.dot(along_x);
-    Some(Footprint { along_x: along_x * texel, along_y: along_y * texel })
+    let texel = 2.0 / sides / x.dot(along_x);
+    Some(Footprint { along_x: along_x * texel.x, along_y: along_y * texel.y })
 }
 
 /// The gradient of `row`/`w` at a point.
@@ -119,8 +119,9 @@ fn gradient(row: &Plane, w: &Plane, point: DVec3) -> DVec3 {
 }
 
 /// How much depth changes on the plane through a point across `normal` from a texel to the next one across and to the
-/// next one up, never negative; `None` outside of the map and where the light sees the plane from its edge.
-pub(crate) fn depth_slopes(rows: &[Plane; 4], point: DVec3, normal: DVec3, size: u32) -> Option<DVec2> {
+/// next one up, in a map of so many texels across and down, never negative; `None` outside of the map and where the light
+/// sees the plane from its edge.
+pub(crate) fn depth_slopes(rows: &[Plane; 4], point: DVec3, normal: DVec3, sides: DVec2) -> Option<DVec2> {
     let [x, y, z, w] = rows;
     let at = w.at(point);
     if at <= 0.0 || at.is_nan() {
@@ -131,7 +132,7 @@ pub(crate) fn depth_slopes(rows: &[Plane; 4], point: DVec3, normal: DVec3, size:
     let volume = x.dot(y.cross(normal));
     let (along_x, along_y) = (y.cross(normal) / volume, normal.cross(x) / volume);
     // Clip space is two units wide.
-    let slopes = DVec2::new(z.dot(along_x), z.dot(along_y)).abs() * (2.0 / f64::from(size));
+    let slopes = DVec2::new(z.dot(along_x), z.dot(along_y)).abs() * (2.0 / sides);
     slopes.is_finite().then_some(slopes)
 }
 

@@ -4,6 +4,8 @@ use crate::axis::widest_margin;
 use crate::convex::{Plane, Polyhedron};
 use crate::focus::Focus;
 use crate::frame;
+use crate::light::Light;
+use crate::view::View;
 use glam::{DVec2, DVec3};
 
 /// A chart of the rays of a light: a plane that each of them meets once.
@@ -26,7 +28,8 @@ pub(crate) struct Rays {
     pub(crate) v: Plane,
     /// w, positive on everything visible.
     pub(crate) w: Plane,
-    /// Distance along `axis`, from the light or, when it is infinitely far away, from the eye.
+    /// Distance along `axis`, from the light or, when it is infinitely far away, from the eye, or the world's origin in a
+    /// stable map.
     pub(crate) along: Plane,
     /// Where `u`, `v` and `along` are zero.
     origin: DVec3,
@@ -50,13 +53,7 @@ impl Rays {
                 let mut directions = [DVec3::ZERO; Polyhedron::MAX_VERTICES];
                 let mut len = 0;
                 for (direction, point) in directions.iter_mut().zip(visible) {
-                    let arm = point - position;
-                    let distance = arm.length();
-                    // A light a few roundings away from what is visible is on its boundary, and it has no direction.
-                    if distance <= ROUNDINGS * (point.abs() + position.abs()).max_element() {
-                        return Err(NoAxis);
-                    }
-                    *direction = arm / distance;
+                    *direction = direction_between(position, point).ok_or(NoAxis)?;
                     len += 1;
                 }
                 let (axis, margin) = widest_margin(&directions[..len]).ok_or(NoAxis)?;
@@ -67,9 +64,16 @@ impl Rays {
             }
         };
         let (u_axis, v_axis) = frame::across(axis, view.forward(), view.up());
-        let origin = position.unwrap_or(view.eye());
+        Ok(Self::about([u_axis, v_axis, axis], view.eye(), focus.light(), margin))
+    }
+
+    /// The chart with these axes, zero at the light or, when it is infinitely far away, at `origin`; everything visible is in
+    /// front of the light by `margin`, the least cosine.
+    pub(crate) fn about([u_axis, v_axis, axis]: [DVec3; 3], origin: DVec3, light: &Light, margin: f64) -> Self {
+        let position = light.position();
+        let origin = position.unwrap_or(origin);
         let along = Plane::through(axis, origin);
-        Ok(Self {
+        Self {
             axis,
             u_axis,
             v_axis,
@@ -79,19 +83,36 @@ impl Rays {
             along,
             origin,
             local: position.is_some(),
-            least_w: focus.light().near() * margin,
-        })
+            least_w: light.near() * margin,
+        }
     }
 
     /// The least cosine of half the opening of a frustum: 89.9°. A light nearer to what is visible than that stands
     /// among it, as far as a single map is concerned.
-    const MIN_MARGIN: f64 = 1.0 / 512.0;
+    pub(crate) const MIN_MARGIN: f64 = 1.0 / 512.0;
 
     /// The ray through a point, and w there.
     pub(crate) fn through(&self, point: DVec3) -> (DVec2, f64) {
         let w = self.w.at(point);
         let across = DVec2::new(self.u.at(point), self.v.at(point));
         (if self.local { across / w } else { across }, w)
+    }
+
+    /// A point as (u, v, w): the ray through it is at (u, v)/w, where w > 0.
+    pub(crate) fn homogeneous(&self, point: DVec3) -> DVec3 {
+        DVec3::new(self.u.at(point), self.v.at(point), self.w.at(point))
+    }
+
+    /// Depth before the eye of a view where each ray meets the plane across the axis at a distance `along` it: the view's
+    /// depth as the light sees it, a function on the chart.
+    ///
+    /// It is `C₃ − (C₃·l / ρ·l) ρ`, ρ that plane and C₃ the camera's depth row, over w on ρ: the one covector that vanishes
+    /// at the light and agrees with C₃ on ρ.
+    pub(crate) fn depth_across(&self, view: &View, along: f64) -> Functional {
+        let forward = view.forward();
+        let slope = DVec2::new(forward.dot(self.u_axis), forward.dot(self.v_axis));
+        let scale = if self.local { along } else { 1.0 };
+        Functional { slope: slope * scale, constant: view.depth(self.origin + self.axis * along) }
     }
 
     /// A covector that vanishes at the light as a function on the chart.
@@ -112,6 +133,14 @@ impl Rays {
     }
 }
 
+/// The unit direction from a light to a visible point. A light a few roundings away from what is visible is on its boundary,
+/// and it has none.
+pub(crate) fn direction_between(position: DVec3, point: DVec3) -> Option<DVec3> {
+    let arm = point - position;
+    let distance = arm.length();
+    (distance > ROUNDINGS * (point.abs() + position.abs()).max_element()).then(|| arm / distance)
+}
+
 /// What a vertex may be away from the exact one where its planes meet squarely: their slack, and its roundings.
 const ROUNDINGS: f64 = 2.0 * Plane::SLACK;
 
@@ -125,9 +154,16 @@ pub(crate) struct Functional {
 impl Functional {
     /// The uniform map's w.
     pub(crate) const ONE: Self = Self { slope: DVec2::ZERO, constant: 1.0 };
+    /// The chart's coordinates.
+    pub(crate) const U: Self = Self { slope: DVec2::X, constant: 0.0 };
+    pub(crate) const V: Self = Self { slope: DVec2::Y, constant: 0.0 };
 
     pub(crate) fn at(&self, ray: DVec2) -> f64 {
         self.slope.dot(ray) + self.constant
+    }
+
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        Self { slope: self.slope + other.slope, constant: self.constant + other.constant }
     }
 
     pub(crate) fn scaled(&self, factor: f64) -> Self {

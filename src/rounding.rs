@@ -100,10 +100,10 @@ impl Rows {
         self.of_depth(range) / (range.max - range.min) + self.w
     }
 
-    /// The same of texture coordinates, relative to the window. w counts once in the row, which is half the sum of w's
-    /// and another, and twice in the division: |x/w| ≤ 1 there, texture coordinates are half as large.
-    fn in_window(&self, window: &Rectangle) -> f64 {
-        (self.of_window(window) / window.half).max_element() + 3.0 * self.w
+    /// The same of texture coordinates, across and down, relative to the window. w counts once in the row, which is half the
+    /// sum of w's and another, and twice in the division: |x/w| ≤ 1 there, texture coordinates are half as large.
+    fn in_window(&self, window: &Rectangle) -> DVec2 {
+        self.of_window(window) / window.half + 3.0 * self.w
     }
 }
 
@@ -206,9 +206,9 @@ impl Rounding {
         self.visible.ratio.times(self.cut).min(&self.visible.magnitude.times(self.c.min.recip()))
     }
 
-    /// Half extents of a window that holds `window` after rounding in the `inner` part of a map of `size` texels a
-    /// side, no smaller than `least`, nor so small that a texel would be less than the rounding.
-    pub(crate) fn padded_window(&self, window: &Rectangle, inner: f64, size: u32, least: f64) -> DVec2 {
+    /// Half extents of a window that holds `window` after rounding in the `inner` part of a map of so many texels across and
+    /// down, no smaller than `least`, nor so small that a texel would be less than the rounding.
+    pub(crate) fn padded_window(&self, window: &Rectangle, inner: DVec2, sides: DVec2, least: f64) -> DVec2 {
         let of_visible = self.visible();
         let visible = of_visible.of_window(window);
         let (mut casting, mut casting_w) = (self.casting.of_window(window), self.casting.w);
@@ -218,7 +218,7 @@ impl Rounding {
         }
         let w = of_visible.w.max(casting_w).min(0.5);
         let padded = (window.half + visible.max(casting)) / ((1.0 - w) * inner);
-        padded.max(visible * (0.5 * f64::from(size))).max(DVec2::splat(least))
+        padded.max(visible * (0.5 * sides)).max(DVec2::splat(least))
     }
 
     /// How deep rounding may put a point that casts, with the depth e/c there, in a range before it is padded.
@@ -249,14 +249,19 @@ impl Rounding {
         Interval { min: depth.min - near - missing, max: depth.max + far + missing }
     }
 
-    /// What all this makes of a map of `size` texels a side, where what is not beside a lamp has at least the c, and −e·l is
-    /// as said.
+    /// The same for a map whose w is 1 where c is `largest`, no less than the largest of what is visible.
+    pub(crate) fn scaled_to(self, largest: f64) -> Self {
+        Self { c: Interval { max: largest, ..self.c }, ..self }
+    }
+
+    /// What all this makes of a map of so many texels across and down, where what is not beside a lamp has at least the c,
+    /// and −e·l is as said.
     pub(crate) fn in_map(
         &self,
         map: &Homography,
         window: &Rectangle,
         depth: &Interval,
-        size: u32,
+        sides: DVec2,
         [away_c, to_light]: [f64; 2],
     ) -> MapNoise {
         // Where f32 loses half of w or more, a point is anywhere.
@@ -267,11 +272,11 @@ impl Rounding {
         };
         MapNoise {
             depth: noise(&|rows| rows.in_depth(depth)),
-            place: noise(&|rows| 0.5 * f64::from(size) * rows.in_window(window)),
+            place: noise(&|rows| (0.5 * sides * rows.in_window(window)).max_element()),
             least_w: self.c.min / self.c.max,
             away_w: most(away_c, self.c.min) / self.c.max,
             to_light: to_light / (depth.max - depth.min) / self.c.max,
-            change: map.change_of_inverse_c(window, size) / to_light * self.c.max,
+            change: map.change_of_inverse_c(window, sides) / to_light * self.c.max,
         }
     }
 }
@@ -281,7 +286,7 @@ impl Rounding {
 pub(crate) struct MapNoise {
     /// Of depth, where its range is 1.
     pub(crate) depth: Noise,
-    /// Of places, in texels, read by texture coordinates.
+    /// Of places, in texels across or down, read by texture coordinates.
     pub(crate) place: Noise,
     /// The least w of anything no nearer to the light than its near distance.
     pub(crate) least_w: f64,

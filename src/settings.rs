@@ -3,8 +3,11 @@
 use crate::clip_space::ClipSpace;
 use crate::error::{InputError, Problem, check};
 use crate::focus::Form;
+use glam::DVec2;
 
 /// What the map's texels are spread by: the covector c that becomes w.
+///
+/// A warp that cannot be made leaves the uniform map, and the map says why ([`Map::refusal`](crate::Map::refusal)).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Warp {
@@ -15,9 +18,68 @@ pub enum Warp {
     /// the view to what is seen ([`View::narrowed`](crate::View::narrowed)).
     #[default]
     Perspective,
+    /// The light-space perspective (Wimmer, Scherzer & Purgathofer 2004): the warp runs across the light, along the view as
+    /// the light sees it, and is as strong as their formula for n says. It fades as the light turns into the view, and is
+    /// refused for an orthographic one.
+    LightSpace,
+    /// The trapezoidal map (Martin & Tan 2004): the trapezoid around what is visible, as the light sees it, with four fifths
+    /// of the map for the part that lies next to the viewer: up to a fifth of the visible depths. It does not fade as
+    /// the light turns into the view, but keeps a warp whose direction jumps there; a light along the view is refused.
+    Trapezoidal,
+    /// No warp, and texels that stay where they are in the world while the camera moves and turns, for edges of shadows
+    /// that do not crawl: steadiness before sharpness, as cascades are often made (Valient, *Stable Rendering of Cascaded
+    /// Shadow Maps*, ShaderX6, 2008). The back-shift makes no difference to it.
+    ///
+    /// Under a directional light the map's axes are those of the light, whatever the view. The window has room for the
+    /// view in all positions: a ball around V, or all of S across the light where that is narrower, each axis for itself.
+    /// Its middle moves in whole texels of a grid through the world's origin. From a spot or a face of a cube the map is
+    /// that of all that the light reaches, and x, y and w of its matrix do not change at all. Depth ranges grow and shrink
+    /// in steps.
+    ///
+    /// **How to use it.** Keep what the texel's size is made of: the field of view, the aspect, near and far, the size and
+    /// border of the map, and the direction of light. Another field of view, a zoom say, or another far plane makes another
+    /// grid, all of which then changes at once. Narrow the view to the distance that shadows are drawn to
+    /// ([`View::narrowed`](crate::View::narrowed)): the window is as large as all that is nearer, wherever the camera
+    /// looks. A sun that moves turns the grid: move it in steps.
+    ///
+    /// **What f32 can do.** With [`Origin::Eye`] a point stays where it is among the texels to within
+    /// [`Window::rounding`](crate::Window::rounding), also a thousand kilometres from the origin. With [`Origin::World`]
+    /// coordinates far out are known to f32 by steps, and texels are made no smaller than those: by factors of two, so that
+    /// the grid stays where it is but for every other line, as long as the camera does not travel as far again. What f32
+    /// makes of a point's place in the map then is off by as much as the steps are, and by the same in each frame.
+    ///
+    /// Not every light has such a map, see [`Refusal`](crate::Refusal); it is the uniform one then.
+    Stable,
+    /// The best of all single matrices that a search of this effort finds, by the worst aliasing of what is visible. The
+    /// back-shift makes no difference to it.
+    Best(Effort),
 }
 
-/// Where the camera stands whose perspective warps the map; it makes no difference to a uniform one.
+#[cfg(feature = "std")]
+impl Warp {
+    /// Whether texels are spread unevenly.
+    pub(crate) const fn bends(self) -> bool {
+        !matches!(self, Self::Uniform | Self::Stable)
+    }
+}
+
+/// How long to search for the best matrix: the price of its accuracy.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Effort {
+    /// The best of the closed forms, in the frame that they have by themselves; in a map that is not square, in that and a
+    /// quarter turn from it.
+    ClosedForms,
+    /// The best of them refined once, with eight steps.
+    Rough,
+    /// Two beginnings, the better of which is refined. In a map that is not square they are four, and the better two.
+    #[default]
+    Good,
+    /// All refined to the end.
+    Thorough,
+}
+
+/// Where the camera stands whose perspective warps the map; it makes no difference but to [`Warp::Perspective`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Shift {
@@ -52,7 +114,10 @@ pub enum Origin {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "stored::Settings"))]
 pub struct Settings {
-    map_size: u32,
+    map_width: u32,
+    /// An option as it is stored: settings from when all maps were square are read as well.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "stored::some"))]
+    map_height: u32,
     image_height: u32,
     border: u32,
     warp: Warp,
@@ -64,7 +129,8 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            map_size: 2048,
+            map_width: 2048,
+            map_height: 2048,
             image_height: 1080,
             border: 1,
             warp: Warp::default(),
@@ -85,34 +151,42 @@ impl Settings {
     ///
     /// Names the field that is below 4 or above [`Self::MAX_SIZE`].
     pub fn new(map_size: u32, image_height: u32) -> Result<Self, InputError> {
-        for (field, size) in [("map_size", map_size), ("image_height", image_height)] {
-            if size < 4 {
-                return check::fail(field, Problem::TooSmall);
-            }
-            if size > Self::MAX_SIZE {
-                return check::fail(field, Problem::TooLarge);
-            }
-        }
-        Ok(Self { map_size, image_height, ..Self::default() })
+        check_sizes([("map_size", map_size), ("image_height", image_height)])?;
+        Ok(Self { map_width: map_size, map_height: map_size, image_height, ..Self::default() })
     }
 
-    /// The same for a map of another size, in texels a side.
+    /// The same for a square map of another size, in texels a side.
     ///
     /// # Errors
     ///
     /// As [`Self::new`], and names `"border"` when the border is too wide for it.
     pub fn with_map_size(self, map_size: u32) -> Result<Self, InputError> {
-        let Self { map_size, .. } = Self::new(map_size, self.image_height)?;
-        Self { map_size, ..self }.with_border(self.border)
+        check_sizes([("map_size", map_size)])?;
+        self.with_map_sides(map_size, map_size)
+    }
+
+    /// The same for a map so many texels wide and high, square or not: a tile of an atlas, say.
+    ///
+    /// The window is made to fit as in a square map, whatever the sides: what the view looks along lies along the map's height,
+    /// and so do the closed forms' warps. Only [`Warp::Best`] looks for what makes the most of the sides, and may turn the map
+    /// to it.
+    ///
+    /// # Errors
+    ///
+    /// Names `"map_width"` or `"map_height"` when it is below 4 or above [`Self::MAX_SIZE`], and `"border"` when the border
+    /// is too wide for the shorter side.
+    pub fn with_map_sides(self, map_width: u32, map_height: u32) -> Result<Self, InputError> {
+        check_sizes([("map_width", map_width), ("map_height", map_height)])?;
+        Self { map_width, map_height, ..self }.with_border(self.border)
     }
 
     /// The same with a border of so many texels around what is visible, for filters to reach into; 1 by default.
     ///
     /// # Errors
     ///
-    /// Names `"border"` when less than half of the map would be left.
+    /// Names `"border"` when less than half of a side of the map would be left.
     pub fn with_border(self, border: u32) -> Result<Self, InputError> {
-        if border > self.map_size / 4 {
+        if border > self.map_size() / 4 {
             return check::fail("border", Problem::TooLarge);
         }
         Ok(Self { border, ..self })
@@ -142,10 +216,28 @@ impl Settings {
         Self { origin, ..self }
     }
 
-    /// Texels a side of the map.
+    /// Texels a side of a square map; of another, texels of its shorter side. It is the side of the largest square in the
+    /// map, which is what paraboloid maps and the planner, whose maps are all square, take.
     #[must_use]
     pub const fn map_size(&self) -> u32 {
-        self.map_size
+        if self.map_width < self.map_height { self.map_width } else { self.map_height }
+    }
+
+    /// Texels of the map across and down.
+    #[must_use]
+    pub const fn map_sides(&self) -> (u32, u32) {
+        (self.map_width, self.map_height)
+    }
+
+    /// The same as numbers to reckon with.
+    pub(crate) fn sides(&self) -> DVec2 {
+        DVec2::new(self.map_width.into(), self.map_height.into())
+    }
+
+    /// The same for the largest square in the map.
+    pub(crate) const fn squared(self) -> Self {
+        let map_size = self.map_size();
+        Self { map_width: map_size, map_height: map_size, ..self }
     }
 
     /// Height of the image in pixels.
@@ -160,9 +252,9 @@ impl Settings {
         self.border
     }
 
-    /// The part of the map inside its border.
-    pub(crate) fn inner(&self) -> f64 {
-        1.0 - 2.0 * f64::from(self.border) / f64::from(self.map_size)
+    /// The part of the map inside its border, across and down.
+    pub(crate) fn inner(&self) -> DVec2 {
+        1.0 - 2.0 * f64::from(self.border) / self.sides()
     }
 
     /// The warp.
@@ -190,6 +282,19 @@ impl Settings {
     }
 }
 
+/// Names the size that is out of bounds.
+fn check_sizes<const N: usize>(sizes: [(&'static str, u32); N]) -> Result<(), InputError> {
+    for (field, size) in sizes {
+        if size < 4 {
+            return check::fail(field, Problem::TooSmall);
+        }
+        if size > Settings::MAX_SIZE {
+            return check::fail(field, Problem::TooLarge);
+        }
+    }
+    Ok(())
+}
+
 /// Settings as they are stored: the same values, checked again when they are read.
 #[cfg(feature = "serde")]
 mod stored {
@@ -197,7 +302,11 @@ mod stored {
 
     #[derive(serde::Deserialize)]
     pub(super) struct Settings {
-        map_size: u32,
+        /// Of a square map this was once all there was.
+        #[serde(alias = "map_size")]
+        map_width: u32,
+        #[serde(default)]
+        map_height: Option<u32>,
         image_height: u32,
         border: u32,
         warp: Warp,
@@ -209,9 +318,17 @@ mod stored {
     impl TryFrom<Settings> for super::Settings {
         type Error = InputError;
         fn try_from(settings: Settings) -> Result<Self, InputError> {
-            let Settings { map_size, image_height, border, warp, shift, clip, origin } = settings;
-            let checked = Self::new(map_size, image_height)?.with_border(border)?;
+            let Settings { map_width, map_height, image_height, border, warp, shift, clip, origin } = settings;
+            let map_height = map_height.unwrap_or(map_width);
+            let largest = Self::new(Self::MAX_SIZE, image_height)?;
+            let checked = largest.with_map_sides(map_width, map_height)?.with_border(border)?;
             Ok(checked.with_warp(warp).with_shift(shift).with_clip(clip).with_origin(origin))
         }
+    }
+
+    /// A height as it is read again.
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "it is what serde calls")]
+    pub(super) fn some<S: serde::Serializer>(height: &u32, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_some(height)
     }
 }

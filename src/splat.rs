@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 /// What a ball or a disc covers of a map: the axis-aligned rectangle that it just fits into, in texels.
 ///
 /// Coordinates count texels from the corner of the texture that its coordinates count from: they are texture coordinates
-/// times the map's size, and the texel in column i and row j is the square from (i, j) to (i + 1, j + 1).
+/// times the map's sides, and the texel in column i and row j is the square from (i, j) to (i + 1, j + 1).
 ///
 /// # Clouds without holes
 ///
@@ -70,13 +70,13 @@ impl Splat {
     /// ```
     ///
     /// The two roots are the ends of the values. For a disc, only the part of a normal in its plane counts. `rest` is
-    /// 1 − |of_w|², and `size` the map's.
-    fn of_spans([(x, across_x), (y, across_y)]: [(f64, DVec3); 2], of_w: DVec3, rest: f64, size: f64) -> Self {
+    /// 1 − |of_w|², and `sides` are the map's.
+    fn of_spans([(x, across_x), (y, across_y)]: [(f64, DVec3); 2], of_w: DVec3, rest: f64, sides: DVec2) -> Self {
         let mixed = DVec2::new(across_x.dot(of_w), across_y.dot(of_w));
         let squared = DVec2::new(across_x.length_squared(), across_y.length_squared());
         let half = (mixed * mixed + squared * rest).sqrt();
-        let scale = size / rest;
-        Self { centre: DVec2::new(x, y) * size - mixed * scale, half: half * scale }
+        let scale = sides / rest;
+        Self { centre: DVec2::new(x, y) * sides - mixed * scale, half: half * scale }
     }
 
     /// The rectangle grown to at least a texel across and down, so that it holds the middle of at least one texel
@@ -130,8 +130,7 @@ impl Map {
             let place = row.at(centre) / at;
             (place, reach(row.normal - w.normal * place))
         });
-        let size = f64::from(self.settings().map_size());
-        let splat = Splat::of_spans(across, of_w, rest, size);
+        let splat = Splat::of_spans(across, of_w, rest, self.settings().sides());
         (splat.centre.is_finite() && splat.half.is_finite()).then_some(splat)
     }
 }

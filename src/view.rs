@@ -1,6 +1,7 @@
 //! The view V: the camera's frustum, whatever convention its matrices came in.
 
 use crate::angle;
+use crate::bounds::{least, most};
 use crate::clip_space::{ClipSpace, DepthRange};
 use crate::convex::{Plane, matrix_from_rows};
 use crate::decode::{EyeAxes, Frame};
@@ -251,6 +252,16 @@ impl View {
         }
     }
 
+    /// What the middle of the image shows at a depth.
+    pub(crate) fn centre_at(&self, depth: f64) -> DVec3 {
+        let centre = (self.frame_min + self.frame_max) * 0.5;
+        let centre = match self.lens {
+            Lens::Perspective => centre * depth,
+            Lens::Orthographic => centre,
+        };
+        self.eye + self.forward * depth + self.right * centre.x + self.up * centre.y
+    }
+
     /// Half the height, in world units, of what the image shows at a depth.
     #[must_use]
     pub fn half_height(&self, depth: f64) -> f64 {
@@ -303,6 +314,47 @@ impl View {
                 self.eye + self.forward * depth + self.right * (x * unit) + self.up * (y * unit)
             })
         })
+    }
+
+    /// The middle and the radius of a ball around V, unless its far plane is infinite. The radius comes of the frame, near and
+    /// far alone, so that it has the same bits wherever the camera is.
+    ///
+    /// It is the smallest with its middle on the frame's own axis, and so the smallest of all where that is the view's. With m
+    /// the middle of a perspective frame, h half its size, s = |h|, q = h·|m| and A = 1 + |m|², the farthest corners at depth
+    /// d of the ball's middle at depth z lie at
+    ///
+    /// ```text
+    ///     A (d − z)² + 2 q d |d − z| + s² d²
+    /// ```
+    ///
+    /// squared, which is the same for near and far where a linear equation in z says.
+    pub(crate) fn ball(&self) -> Option<(DVec3, f64)> {
+        if self.far.is_infinite() {
+            return None;
+        }
+        let (near, far) = (self.near, self.far);
+        let middle = (self.frame_min + self.frame_max) * 0.5;
+        let half = (self.frame_max - self.frame_min) * 0.5;
+        let (depth, unit, squared) = match self.lens {
+            Lens::Perspective => {
+                let (s2, q, a) = (half.length_squared(), half.dot(middle.abs()), 1.0 + middle.length_squared());
+                let (sum, difference) = (far + near, far - near);
+                let balance = (a + s2) * difference * sum + 2.0 * q * (far * far + near * near);
+                let depth = least(balance / (2.0 * (a * difference + q * sum)), far);
+                let corner = |d: f64| {
+                    let along = (d - depth).abs();
+                    a * along * along + 2.0 * q * d * along + s2 * d * d
+                };
+                (depth, depth, most(corner(near), corner(far)))
+            }
+            Lens::Orthographic => {
+                let along = 0.5 * (far - near);
+                (0.5 * (near + far), 1.0, along * along + half.length_squared())
+            }
+        };
+        let across = middle * unit;
+        let centre = self.eye + self.forward * depth + self.right * across.x + self.up * across.y;
+        Some((centre, DVec2::splat(squared).sqrt().x))
     }
 
     /// The camera's 4×4, world → clip, with x, y and z in [−1, 1] whatever convention the view came in.

@@ -61,7 +61,8 @@ pub struct TangentPlane {
     place: DVec2,
     depth: f64,
     slopes: DVec2,
-    size: u32,
+    /// Texels of the map across and down.
+    sides: DVec2,
     reversed: bool,
 }
 
@@ -104,7 +105,7 @@ impl TangentPlane {
             place: DVec2::new(coordinate(&u), coordinate(&v)),
             depth: coordinate(&z),
             slopes,
-            size: map.settings().map_size(),
+            sides: map.settings().sides(),
             reversed: clip.depth.is_reversed(),
         })
     }
@@ -137,16 +138,18 @@ impl TangentPlane {
     /// makes of the plane's slope.
     #[must_use]
     pub fn tolerance(&self, constant: f64) -> f64 {
-        constant + SUBTEXEL / f64::from(self.size) * self.slopes.abs().element_sum()
+        // In texels across.
+        let slopes = self.slopes.abs() * (self.sides.x / self.sides);
+        constant + SUBTEXEL / self.sides.x * slopes.element_sum()
     }
 
     /// Tests the 2 × 2 texels around the point, blended by its distance from their centres, as a comparison sampler does.
     ///
     /// `constant` is the tolerance, see [`Map::comparison_tolerance`]; `stored` is the depth that the map holds for a
-    /// texel, by column and row in texture space, from 0 to one less than the map's size.
+    /// texel, by column and row in texture space, from 0 to one less than the map's width and height.
     #[must_use]
     pub fn blended(&self, constant: f64, stored: impl Fn(u32, u32) -> f64) -> Sampled {
-        let corner = self.place * f64::from(self.size) - 0.5;
+        let corner = self.place * self.sides - 0.5;
         let part = corner - corner.floor();
         let weight = |x: u32, y: u32| {
             let of = |offset: u32, part: f64| if offset == 0 { 1.0 - part } else { part };
@@ -161,7 +164,7 @@ impl TangentPlane {
     pub fn mean(&self, taps: u32, constant: f64, stored: impl Fn(u32, u32) -> f64) -> Sampled {
         let taps = taps.max(1);
         // The middle of an odd square is a texel, that of an even one a corner between texels.
-        let first = (self.place * f64::from(self.size) - 0.5 * f64::from(taps - 1)).floor();
+        let first = (self.place * self.sides - 0.5 * f64::from(taps - 1)).floor();
         self.sampled(first, taps, |_, _| 1.0 / (f64::from(taps) * f64::from(taps)), constant, stored)
     }
 
@@ -186,12 +189,11 @@ impl TangentPlane {
         let tolerance = self.tolerance(constant);
         let away = if self.reversed { -1.0 } else { 1.0 };
         let passes = |depth: f64, stored: f64| away * (depth.clamp(0.0, 1.0) - stored) <= tolerance;
-        let last = f64::from(self.size - 1);
         let (mut point_passes, mut count, mut share) = (0, 0, 0.0);
         for (x, y) in (0..taps).flat_map(|y| (0..taps).map(move |x| (x, y))) {
-            let texel = (first + DVec2::new(f64::from(x), f64::from(y))).clamp(DVec2::ZERO, DVec2::splat(last));
+            let texel = (first + DVec2::new(f64::from(x), f64::from(y))).clamp(DVec2::ZERO, self.sides - 1.0);
             let stored = stored(texel.x as u32, texel.y as u32);
-            let centre = (texel + 0.5) / f64::from(self.size);
+            let centre = (texel + 0.5) / self.sides;
             count += 1;
             point_passes += u32::from(passes(self.depth, stored));
             share += if passes(self.depth_at(centre), stored) { weight(x, y) } else { 0.0 };

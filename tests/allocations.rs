@@ -3,8 +3,8 @@
 use allocation_counter::measure;
 use shadowfit::glam::{DVec3, Vec3, Vec4};
 use shadowfit::{
-    Aabb, ClipSpace, ConvexScene, DepthFormat, Focus, Form, Light, Origin, Outcome, Scene, Settings, Shift, View,
-    Warp, classify, fit,
+    Aabb, ClipSpace, ConvexScene, Cuts, DepthFormat, Effort, Focus, Form, Layout, Light, Origin, Outcome, Scene,
+    Settings, Shift, Slices, Split, View, Warp, classify, fit,
 };
 use std::hint::black_box;
 
@@ -48,11 +48,17 @@ fn settings() -> Vec<Settings> {
     let clips = [ClipSpace::WGPU, ClipSpace::VULKAN.reversed(), ClipSpace::OPENGL, ClipSpace::OPENGL.reversed()];
     let shifts = [Shift::None, Shift::Back(Form::Tight), Shift::Back(Form::Paper)];
     let mut all = Vec::new();
-    for warp in [Warp::Uniform, Warp::Perspective] {
+    let named = [Warp::Uniform, Warp::Stable, Warp::Perspective, Warp::LightSpace, Warp::Trapezoidal];
+    for warp in named
+        .into_iter()
+        .chain([Effort::ClosedForms, Effort::Rough, Effort::Good, Effort::Thorough].map(Warp::Best))
+    {
         for shift in shifts {
             for clip in clips {
                 for origin in [Origin::World, Origin::Eye] {
                     let base = Settings::new(1024, 720).unwrap().with_border(3).unwrap();
+                    // A map that is not square is searched for in more ways.
+                    let base = if origin == Origin::Eye { base.with_map_sides(2048, 512).unwrap() } else { base };
                     all.push(base.with_warp(warp).with_shift(shift).with_clip(clip).with_origin(origin));
                 }
             }
@@ -132,12 +138,14 @@ fn bodies_and_their_faces() {
 
 #[test]
 fn reports() {
-    let mut reports = 0;
+    let (mut reports, receivers) = (0, boxes());
     for_each_case(|view, light, scene| {
         let focus = Focus::new(view, light, scene);
         let Outcome::Map(map) = focus.fit(&Settings::default()) else { return };
         let count = allocations(|| {
             black_box(map.report(&focus));
+            black_box((map.aliasing_over(&focus), focus.limit(&Settings::default())));
+            black_box(map.aliasing_over_receivers(&focus, &receivers));
             black_box((map.matrix(), map.texture_matrix()));
             let bias = map.bias(DepthFormat::Float32, 1.0).unwrap();
             black_box((map.texture_matrix_with(&bias.offset()), map.linear_depth()));
@@ -166,4 +174,25 @@ fn culling() {
         });
         assert_eq!(count, 0, "{view:?} {light:?}");
     });
+}
+
+#[test]
+fn slices() {
+    let mut maps = 0;
+    for_each_case(|view, light, scene| {
+        for cuts in [Cuts::Visible { count: 8, split: Split::Blended(0.5) }, Cuts::At(&[1.0, 5.0, 30.0])] {
+            let count = allocations(|| {
+                let slices = Slices::new(view, light, scene, cuts, 0.1).unwrap();
+                let fitted = slices.fit(&Settings::default());
+                black_box((slices.index_at(3.0), slices.blend_at(3.0)));
+                black_box(fitted.report());
+                for layout in [Layout::Array, Layout::Atlas] {
+                    black_box(fitted.uniform(layout, |_| None).to_bytes());
+                }
+                maps += fitted.maps().count();
+            });
+            assert_eq!(count, 0, "{view:?} {light:?} {cuts:?}");
+        }
+    });
+    assert!(maps > 0);
 }

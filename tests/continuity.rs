@@ -7,11 +7,11 @@
 mod arbitrary;
 mod claims;
 
-use arbitrary::{run, settings};
+use arbitrary::{FORMS, following, run};
 use claims::rays::projected;
 use glam::DVec3;
 use proptest::prelude::*;
-use shadowfit::{Focus, Light, Map, Scene, Settings, View, Warp};
+use shadowfit::{Focus, Light, Map, Scene, Settings, View};
 
 /// The numbers that a set-up is made of, by what they are.
 #[rustfmt::skip]
@@ -135,7 +135,7 @@ fn check(set_up: &SetUp, settings: &Settings, input: usize) {
 
 #[test]
 fn the_matrix_is_continuous_in_every_input() {
-    run(4000, &(SetUp::strategy(), settings(), 0..INPUTS.len()), |(set_up, settings, input)| {
+    run(4000, &(SetUp::strategy(), following(), 0..INPUTS.len()), |(set_up, settings, input)| {
         check(&set_up, &settings, input);
     });
 }
@@ -152,7 +152,7 @@ fn corners_that_are_equally_far_from_the_axis() {
         &[1.387_952_824_283_345_9, 0.01, 30.0, 5.0, 5.0, -17.815_554_196_464_575, 1.0, 92.421_791_159_626_78],
     ];
     let set_up = SetUp { kind: Kind::Spot, numbers: numbers.concat().try_into().expect("one for each input") };
-    for warp in [Warp::Uniform, Warp::Perspective] {
+    for warp in FORMS {
         for input in 0..INPUTS.len() {
             check(&set_up, &Settings::default().with_warp(warp), input);
         }

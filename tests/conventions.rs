@@ -342,7 +342,7 @@ const EXACT: f64 = 1e-12;
 #[test]
 fn matrices_of_every_convention() {
     for setup in Setup::around(DVec3::ZERO) {
-        for warp in [Warp::Uniform, Warp::Perspective] {
+        for warp in [Warp::Uniform, Warp::Perspective, Warp::LightSpace, Warp::Trapezoidal] {
             let map = setup.map(&settings(warp));
             let wgpu = map.shadow_from_world_in(ClipSpace::WGPU);
             for clip in clip_spaces() {
@@ -381,7 +381,7 @@ fn matrices_of_every_convention() {
 #[test]
 fn the_middle_of_what_is_visible_is_the_middle_of_the_map() {
     for setup in Setup::around(DVec3::ZERO) {
-        for warp in [Warp::Uniform, Warp::Perspective] {
+        for warp in [Warp::Uniform, Warp::Perspective, Warp::LightSpace, Warp::Trapezoidal] {
             let map = setup.map(&settings(warp).with_border(5).unwrap());
             let inner = 1.0 - 2.0 * 5.0 / f64::from(map.settings().map_size());
             let matrix = map.shadow_from_world();
@@ -481,7 +481,7 @@ fn project_in_f32(matrix: &Mat4, relative: DVec3) -> Vec3 {
 fn far_away_positions_relative_to_the_eye_keep_their_texel() {
     let far = DVec3::new(1e7, -2e7, 0.7e7);
     for (here, there) in Setup::around(DVec3::ZERO).into_iter().zip(Setup::around(far)) {
-        for warp in [Warp::Uniform, Warp::Perspective] {
+        for warp in [Warp::Uniform, Warp::Perspective, Warp::LightSpace, Warp::Trapezoidal] {
             let off = |setup: &Setup| {
                 let map = setup.map(&settings(warp).with_origin(Origin::Eye));
                 let exact = map.shadow_from_world();

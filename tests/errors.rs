@@ -385,6 +385,26 @@ fn sizes_of_settings() {
     refused(settings.with_map_size(3), "map_size", Problem::TooSmall);
     refused(settings.with_border(4).unwrap().with_map_size(15), "border", Problem::TooLarge);
     assert_eq!(settings.with_map_size(64).unwrap().map_size(), 64);
+    for (size, problem) in [(3, Problem::TooSmall), (Settings::MAX_SIZE + 1, Problem::TooLarge)] {
+        refused(settings.with_map_sides(size, 16), "map_width", problem);
+        refused(settings.with_map_sides(16, size), "map_height", problem);
+    }
+}
+
+/// The border is that of the shorter side, and a size makes the map square again.
+#[test]
+fn sides_of_settings() {
+    let settings = Settings::new(16, 4).unwrap().with_border(4).unwrap();
+    assert_eq!((settings.map_sides(), settings.map_size()), ((16, 16), 16));
+    for (width, height) in [(16, 64), (64, 16)] {
+        let settings = settings.with_map_sides(width, height).unwrap();
+        assert_eq!((settings.map_sides(), settings.map_size(), settings.border()), ((width, height), 16, 4));
+        refused(settings.with_border(5), "border", Problem::TooLarge);
+        assert_eq!(settings.with_map_size(32).unwrap().map_sides(), (32, 32));
+    }
+    refused(settings.with_map_sides(15, 64), "border", Problem::TooLarge);
+    refused(settings.with_map_sides(64, 15), "border", Problem::TooLarge);
+    assert_eq!(settings.with_map_sides(32, 32).unwrap(), settings.with_map_size(32).unwrap());
 }
 
 #[cfg(feature = "std")]

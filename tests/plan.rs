@@ -141,6 +141,20 @@ fn a_map_fine_enough_is_uniform_and_no_larger_than_needed() {
     assert!(plan.aliasing() <= 1.0 && plan.passes()[0].map_size() < 8192, "{plan:?}");
 }
 
+/// Maps are square, and as large as the shorter side of the settings' map.
+#[test]
+fn a_budget_that_is_not_square_is_that_of_its_shorter_side() {
+    let planned = |budget: &Budget| planned(&looking_ahead(), sun(), &[ground(50.0), tower()], budget);
+    let square = Settings::new(256, 720).expect("sound");
+    let expected = planned(&Budget::new(square));
+    assert_eq!(expected.passes()[0].map_size(), 256);
+    for (width, height) in [(256, 4096), (4096, 256)] {
+        let settings = square.with_map_sides(width, height).expect("sound");
+        let plan = planned(&Budget::new(settings));
+        assert_eq!(format!("{plan:?}"), format!("{expected:?}"));
+    }
+}
+
 #[test]
 fn no_warp_is_made_where_none_is_wanted() {
     let settings = Settings::new(256, 720).expect("sound").with_warp(Warp::Uniform);
@@ -158,14 +172,14 @@ fn along_the_view_a_warp_is_no_finer() {
 #[test]
 fn across_a_long_view_a_warp_is_finer() {
     let plan = planned(&looking_ahead(), sun(), &[ground(50.0), tower()], &at_most(1024));
-    assert_because!(plan, Kind::Perspective, Reason::WarpFiner(_), Reason::ShiftFiner(_));
+    assert_because!(plan, Kind::Warped, Reason::WarpFiner(_), Reason::ShiftFiner(_));
 }
 
 #[test]
 fn under_a_sun_ahead_the_camera_stays() {
     let ahead = Light::directional((0.4, 1.0, -0.8)).expect("sound");
     let plan = planned(&looking_ahead(), ahead, &[ground(50.0), tower()], &at_most(1024));
-    assert_because!(plan, Kind::Perspective, Reason::WarpFiner(_), Reason::NoShiftFiner(_));
+    assert_because!(plan, Kind::Warped, Reason::WarpFiner(_), Reason::NoShiftFiner(_));
 }
 
 #[test]
@@ -203,7 +217,7 @@ fn a_lamp_among_what_is_not_has_the_faces_of_a_cube() {
 fn maps_keep_to_the_texels_of_all_lights() {
     let budget = at_most(1024).with_texels(1 << 18);
     let plan = planned(&looking_ahead(), sun(), &[ground(50.0), tower()], &budget);
-    assert_because!(&plan, Kind::Perspective, Reason::OverBudget(512));
+    assert_because!(&plan, Kind::Warped, Reason::OverBudget(512));
     assert_eq!(plan.texels(), 1 << 18);
 }
 
@@ -211,7 +225,7 @@ fn maps_keep_to_the_texels_of_all_lights() {
 fn flat_sheets_are_tested_by_virtual_samples_where_a_bias_would_show() {
     let sheet = Object { surface: Surface::FlatSheets, ..tower() };
     let plan = planned(&looking_ahead(), sun(), &[ground(50.0), sheet], &at_most(256));
-    assert_because!(&plan, Kind::Perspective, Reason::BiasShows(_), Reason::TexelsShow(_));
+    assert_because!(&plan, Kind::Warped, Reason::BiasShows(_), Reason::TexelsShow(_));
     assert!(plan.virtual_samples() && plan.passes().iter().all(|pass| pass.bias().is_none()));
 }
 
@@ -230,7 +244,7 @@ fn flat_sheets_are_tested_with_a_bias_where_it_is_hidden_and_texels_with_it() {
 fn sheets_that_curve_are_tested_with_a_bias() {
     let sheet = Object { surface: Surface::Mesh(Solidity::Open), ..tower() };
     let plan = planned(&looking_ahead(), sun(), &[ground(50.0), sheet], &at_most(256));
-    assert_because!(&plan, Kind::Perspective, Reason::SheetsCurve, Reason::TexelsShow(_));
+    assert_because!(&plan, Kind::Warped, Reason::SheetsCurve, Reason::TexelsShow(_));
     assert!(!plan.virtual_samples() && plan.passes().iter().all(|pass| pass.bias().is_some()));
 }
 
@@ -238,7 +252,7 @@ fn sheets_that_curve_are_tested_with_a_bias() {
 fn points_are_tested_with_a_bias() {
     let cloud = Object { surface: Surface::Points, ..tower() };
     let plan = planned(&looking_ahead(), sun(), &[ground(50.0), cloud], &at_most(1024));
-    assert_because!(plan, Kind::Perspective, Reason::PointsCast);
+    assert_because!(plan, Kind::Warped, Reason::PointsCast);
 }
 
 #[test]

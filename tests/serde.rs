@@ -7,9 +7,10 @@ use serde::de::DeserializeOwned;
 use serde_json::{Value, from_str, from_value, json, to_string, to_value};
 use shadowfit::glam::{DMat4, DVec3, DVec4, Vec3};
 use shadowfit::{
-    Aabb, Budget, ClipSpace, CubeFace, DepthBias, DepthFormat, DepthResolution, DepthSpan, Empty, Filter, Focus,
-    Footprint, Form, Light, LightClass, NearCase, Object, Offset, Origin, Outcome, Plane, Reason, Scene, Settings,
-    Shift, Surrounded, View, VirtualCamera, Warp, Window, classify,
+    Aabb, Budget, ClipSpace, CubeFace, Cuts, DepthBias, DepthFormat, DepthResolution, DepthSpan, Effort, Empty,
+    Filter, Focus, Footprint, Form, Layout, Light, LightClass, NearCase, Object, Offset, Origin, Outcome, Plane,
+    Reason, Refusal, Scene, Settings, Shift, Slices, Split, Surrounded, View, VirtualCamera, Warp, Window,
+    classify,
 };
 
 #[track_caller]
@@ -132,15 +133,46 @@ fn tampered_lights() {
 }
 
 #[test]
+fn slices() {
+    [Split::Uniform, Split::Logarithmic, Split::Blended(0.1)].into_iter().for_each(comes_back);
+    [Layout::Array, Layout::Atlas].into_iter().for_each(comes_back);
+    let scene = Scene::from_box((-50.0, -3.0, -90.0), (50.0, 5.0, 0.0)).unwrap();
+    let cuts = Cuts::Visible { count: 5, split: Split::Blended(0.1) };
+    let slices = Slices::new(&view(100.0), &spot(), &scene, cuts, 0.1).unwrap();
+    let maps = slices.fit(&Settings::default());
+    comes_back(maps.extent(Layout::Atlas));
+    comes_back(maps.tile(4, Layout::Atlas).unwrap());
+}
+
+#[test]
 fn settings() {
     comes_back(Settings::default());
     let settings = Settings::new(512, 720).unwrap().with_border(7).unwrap();
     let settings = settings.with_clip(ClipSpace::OPENGL.reversed()).with_origin(Origin::Eye);
     comes_back(settings.with_warp(Warp::Uniform).with_shift(Shift::Back(Form::Tight)));
-    tampered(&settings, "/map_size", json!(0), "map_size is too small");
-    tampered(&settings, "/map_size", json!(-1), "expected u32");
+    for warp in [Warp::Stable, Warp::LightSpace, Warp::Trapezoidal, Warp::Best(Effort::Rough)] {
+        comes_back(settings.with_warp(warp));
+    }
+    comes_back(settings.with_map_sides(512, 4096).unwrap());
+    tampered(&settings, "/map_width", json!(0), "map_width is too small");
+    tampered(&settings, "/map_height", json!(0), "map_height is too small");
+    tampered(&settings, "/map_width", json!(-1), "expected u32");
     tampered(&settings, "/image_height", json!(1_000_000), "image_height is too large");
     tampered(&settings, "/border", json!(500), "border is too large");
+}
+
+/// From when all maps were square.
+#[test]
+fn settings_of_one_size() {
+    let settings = Settings::new(512, 720).unwrap().with_border(7).unwrap();
+    let mut stored = to_value(settings).unwrap();
+    let fields = stored.as_object_mut().unwrap();
+    let width = fields.remove("map_width").unwrap();
+    assert_eq!(fields.remove("map_height"), Some(width.clone()));
+    fields.insert("map_size".into(), width);
+    assert_eq!(from_value::<Settings>(stored.clone()).unwrap(), settings);
+    stored["map_size"] = json!(3);
+    assert!(from_value::<Settings>(stored).unwrap_err().to_string().contains("map_width is too small"));
 }
 
 #[test]
@@ -149,7 +181,7 @@ fn budgets() {
     let budget = budget.with_filter(Filter::PercentageCloser(5)).with_aliasing(0.5).unwrap();
     comes_back(budget);
     tampered(&budget, "/aliasing", json!(0.0), "aliasing is too small");
-    tampered(&budget, "/settings/map_size", json!(0), "map_size is too small");
+    tampered(&budget, "/settings/map_height", json!(0), "map_height is too small");
     comes_back(Object::new(Aabb::new(Vec3::NEG_ONE, Vec3::ONE)));
     comes_back([Reason::NothingCasts, Reason::WarpFiner(0.5), Reason::Faces(3)]);
 }
@@ -177,6 +209,7 @@ fn results() {
     comes_back(Aabb::new(Vec3::NEG_ONE, Vec3::ONE * 0.1));
     comes_back([Empty::NothingVisible, Empty::NothingCasts]);
     comes_back(Surrounded);
+    comes_back([Refusal::NoPerspective, Refusal::AlongView, Refusal::FocusBehindLight, Refusal::FocusLarge]);
     comes_back([DepthFormat::Unorm8, DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32]);
     comes_back([NearCase::CameraPlane, NearCase::AlongView, NearCase::Eye, NearCase::InsideView]);
 }

@@ -9,11 +9,11 @@
 mod arbitrary;
 mod claims;
 
-use arbitrary::{Case, Frame, LightParams, Pose, SceneParams, ViewParams, case, run, settings};
+use arbitrary::{Case, Frame, LightParams, Pose, SceneParams, ViewParams, WARPS, case, run, settings};
 use claims::single_precision::{holds_what_it_must, is_as_quiet_as_it_says, rounding};
 use glam::DVec3;
 use proptest::prelude::*;
-use shadowfit::{ClipSpace, Focus, Light, Origin, Scene, Settings, Shift, View, Warp};
+use shadowfit::{ClipSpace, Focus, Light, Origin, Scene, Settings, Shift, View};
 
 #[test]
 fn maps_hold_what_they_must() {
@@ -41,7 +41,7 @@ fn a_plate_under_light_from_above_does_not_drown_in_noise() {
         Light::point((1.0, 30.0, 2.0), 0.1, f64::INFINITY),
     ];
     for light in lights.map(|light| light.expect("sound")) {
-        for warp in [Warp::Uniform, Warp::Perspective] {
+        for warp in WARPS {
             for origin in [Origin::World, Origin::Eye] {
                 let settings = Settings::default().with_warp(warp).with_origin(origin);
                 let focus = Focus::new(&view, &light, &scene);

@@ -67,6 +67,21 @@ fn classes_and_warps() {
 }
 
 #[test]
+fn other_warps() {
+    let mut text = String::new();
+    for light in lights() {
+        let kind = classify(&view(), &light).kind;
+        for warp in [Warp::LightSpace, Warp::Trapezoidal] {
+            let map = fitted(&light, Settings::default().with_warp(warp));
+            let refused = map.refusal().map_or_else(String::new, |why| format!(", refused: {why}"));
+            let ratio = number(map.warp_ratio() as f32);
+            text += &format!("{kind}, {warp:?}, warp ratio {ratio}{refused}\n{}\n\n", table(&map.matrix()));
+        }
+    }
+    insta::assert_snapshot!(text);
+}
+
+#[test]
 fn conventions() {
     let sun = lights()[4];
     let base = Settings::default().with_shift(Shift::None);

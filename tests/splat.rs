@@ -5,7 +5,7 @@
 
 mod arbitrary;
 
-use arbitrary::{Case, Numbers, Similarity, Together, case, points_of, run, settings};
+use arbitrary::{Case, Numbers, Similarity, Together, case, points_of, run, settings, sides};
 use glam::{DMat3, DVec2, DVec3, DVec4, Mat4, Vec2, Vec3};
 use proptest::prelude::*;
 use shadowfit::{Light, Map, Origin, Outcome, Scene, Settings, Splat, TextureOrigin, View, Warp, YAxis, fit};
@@ -82,8 +82,8 @@ impl Rows {
 
     fn of(map: &Map, origin: DVec3, reach: DVec3, roundings: f64) -> Self {
         let rows = map.texture_from_world().transpose();
-        let size = f64::from(map.settings().map_size());
-        Self { x: rows.x_axis * size, y: rows.y_axis * size, w: rows.w_axis, origin, reach, roundings }
+        let sides = sides(map.settings());
+        Self { x: rows.x_axis * sides.x, y: rows.y_axis * sides.y, w: rows.w_axis, origin, reach, roundings }
     }
 
     fn place(&self, point: DVec3) -> DVec2 {
@@ -280,8 +280,8 @@ fn numbers_that_are_none_have_no_bounds() {
 }
 
 /// What the shader does, operation by operation, in f32.
-fn mirrored(matrix: Mat4, centre: Vec3, normal: Vec3, radius: f32, map_size: f32, corner: Vec2) -> [f32; 3] {
-    mirrored_corner(matrix, centre, normal, radius, map_size, corner).0
+fn mirrored(matrix: Mat4, centre: Vec3, normal: Vec3, radius: f32, map_sides: Vec2, corner: Vec2) -> [f32; 3] {
+    mirrored_corner(matrix, centre, normal, radius, map_sides, corner).0
 }
 
 /// The same, with the offset in the ellipse.
@@ -290,7 +290,7 @@ fn mirrored_corner(
     centre: Vec3,
     normal: Vec3,
     radius: f32,
-    map_size: f32,
+    map_sides: Vec2,
     corner: Vec2,
 ) -> ([f32; 3], Vec2) {
     let rows = matrix.transpose();
@@ -312,8 +312,8 @@ fn mirrored_corner(
     let [(at_x, half_x), (at_y, half_y), (_, half_z)] =
         [span(place.x, across(x)), span(place.y, across(y)), span(place.z, across(z))];
     let half = Vec2::new(half_x, half_y);
-    let least = (1.0 + 1.0 / 128.0) / map_size;
-    let grown = half.max(Vec2::splat(least));
+    let least = (1.0 + 1.0 / 128.0) / map_sides;
+    let grown = half.max(least);
     let from_middle = corner * grown;
     let at = Vec2::new(at_x, at_y) + from_middle;
     let turned = normal.dot(x.cross(y));
@@ -326,7 +326,7 @@ fn mirrored_corner(
     let rest = 1.0 - of_w.dot(of_w);
     let (x, y) = (across(x), across(y));
     let mixed = x.dot(of_w) * y.dot(of_w) / (rest * rest) + x.dot(y) / rest;
-    ([at.x, at.y, depth], mirrored_offset(half / least, mixed / (least * least), from_middle / least))
+    ([at.x, at.y, depth], mirrored_offset(half / least, mixed / (least.x * least.y), from_middle / least))
 }
 
 fn mirrored_offset(half: Vec2, mixed: f32, from_middle: Vec2) -> Vec2 {
@@ -349,7 +349,7 @@ fn texels(map: &Map, [x, y, _]: [f32; 3]) -> DVec2 {
     let clip = map.settings().clip();
     let from_top = (clip.y, clip.texture_origin) == (YAxis::Up, TextureOrigin::TopLeft);
     let v = if from_top { 0.5 - 0.5 * f64::from(y) } else { 0.5 + 0.5 * f64::from(y) };
-    DVec2::new(0.5 + 0.5 * f64::from(x), v) * f64::from(map.settings().map_size())
+    DVec2::new(0.5 + 0.5 * f64::from(x), v) * sides(map.settings())
 }
 
 #[test]
@@ -374,7 +374,7 @@ fn the_shader_finds_the_same_bounds_and_the_depth_of_the_disc() {
                 continue;
             };
             let slack = slack + cancelled;
-            let size = f64::from(map.settings().map_size());
+            let sides = sides(map.settings());
             // A matrix of a scene of millimetres at a million metres is good for nothing in f32.
             if slack.max_element() > 0.25 {
                 continue;
@@ -382,7 +382,7 @@ fn the_shader_finds_the_same_bounds_and_the_depth_of_the_disc() {
             let corners = CORNERS.map(|corner| {
                 let centre = (round.centre - origin).as_vec3();
                 let (normal, radius) = (round.normal.as_vec3(), round.radius as f32);
-                mirrored(map.matrix(), centre, normal, radius, size as f32, corner)
+                mirrored(map.matrix(), centre, normal, radius, sides.as_vec2(), corner)
             });
             let grown = splat.half.max(DVec2::splat(0.5 + 1.0 / 256.0));
             assert_eq!(grown, splat.covering().half);
@@ -394,7 +394,7 @@ fn the_shader_finds_the_same_bounds_and_the_depth_of_the_disc() {
             // The shader has the rows of clip space, 2u − w, with so much more of w's rounding in them; and clip coordinates
             // are f32 too.
             let of_w = rows.slack_of(rows.w, &round);
-            let slack = slack + size * (0.5 * of_w / (rows.least_w(&round) - of_w) + f64::from(f32::EPSILON));
+            let slack = slack + sides * (0.5 * of_w / (rows.least_w(&round) - of_w) + f64::from(f32::EPSILON));
             let apart = (low - (splat.centre - grown)).abs().max((high - (splat.centre + grown)).abs());
             assert!(apart.cmple(slack).all(), "{round:?}, {splat:?}: off by {apart}, not {slack}");
             placed.set(placed.get() + 1);
@@ -415,8 +415,16 @@ fn the_shader_gives_a_disc_the_depth_of_its_plane() {
         for _ in 0..5000 {
             let centre = DVec3::new(20.0 * numbers.part() - 10.0, numbers.part(), 8.0 - 16.0 * numbers.part());
             let (normal, radius) = (direction(&mut numbers), 0.01 + 0.4 * numbers.part());
-            let corner_at =
-                |corner| mirrored(map.matrix(), centre.as_vec3(), normal.as_vec3(), radius as f32, 2048.0, corner);
+            let corner_at = |corner| {
+                mirrored(
+                    map.matrix(),
+                    centre.as_vec3(),
+                    normal.as_vec3(),
+                    radius as f32,
+                    Vec2::splat(2048.0),
+                    corner,
+                )
+            };
             let corners = CORNERS.map(corner_at).map(|corner| Vec3::from(corner).as_dvec3());
             let disc = Round { centre, normal, radius };
             let depth = |point: DVec3| map.shadow_from_world().project_point3(point).z;
@@ -458,7 +466,14 @@ fn the_shader_tells_discs_from_their_rectangles() {
             let centre = DVec3::new(20.0 * numbers.part() - 10.0, numbers.part(), 8.0 - 16.0 * numbers.part());
             let (normal, radius) = (direction(&mut numbers), 0.05 + 0.8 * numbers.part());
             let corners = [CORNERS[0], CORNERS[1], CORNERS[2]].map(|corner| {
-                mirrored_corner(map.matrix(), centre.as_vec3(), normal.as_vec3(), radius as f32, 2048.0, corner)
+                mirrored_corner(
+                    map.matrix(),
+                    centre.as_vec3(),
+                    normal.as_vec3(),
+                    radius as f32,
+                    Vec2::splat(2048.0),
+                    corner,
+                )
             });
             let [a, b, c] = corners.map(|(corner, _)| Vec3::from(corner).truncate().as_dvec2());
             let offsets = corners.map(|(_, offset)| offset);

@@ -1,6 +1,6 @@
 //! The cases that both benchmarks measure: one view of a town and three lights.
 
-use shadowfit::{Form, InputError, Light, Scene, Settings, Shift, View, Warp};
+use shadowfit::{Effort, Form, InputError, Light, Scene, Settings, Shift, View, Warp};
 
 /// A street seen from a standing person's eyes.
 pub(crate) fn view() -> Result<View, InputError> {
@@ -22,12 +22,18 @@ pub(crate) fn lights() -> Result<[(&'static str, Light); 3], InputError> {
 }
 
 /// The maps that are fitted.
-pub(crate) fn settings() -> [(&'static str, Settings); 4] {
-    let settings = Settings::default();
+pub(crate) fn settings() -> [(&'static str, Settings); 10] {
+    let settings = Settings::default().with_shift(Shift::Back(Form::Paper));
     [
-        ("uniform", settings.with_warp(Warp::Uniform).with_shift(Shift::None)),
+        ("uniform", settings.with_warp(Warp::Uniform)),
         ("psm", settings.with_shift(Shift::None)),
-        ("psm shifted by the paper's H", settings.with_shift(Shift::Back(Form::Paper))),
-        ("psm shifted by the tight H", settings.with_shift(Shift::Back(Form::Tight))),
+        ("psm shifted by the paper's H", settings),
+        ("light-space", settings.with_warp(Warp::LightSpace)),
+        ("trapezoidal", settings.with_warp(Warp::Trapezoidal)),
+        ("best, closed forms", settings.with_warp(Warp::Best(Effort::ClosedForms))),
+        ("best, rough", settings.with_warp(Warp::Best(Effort::Rough))),
+        ("best, good", settings.with_warp(Warp::Best(Effort::Good))),
+        ("best, thorough", settings.with_warp(Warp::Best(Effort::Thorough))),
+        ("stable", settings.with_warp(Warp::Stable)),
     ]
 }

@@ -5,103 +5,22 @@ use std::path::PathBuf;
 use clap::builder::RangedU64ValueParser;
 use clap::{Parser, Subcommand, ValueEnum};
 use shadowfit::glam::DVec3;
-use shadowfit::{ClipSpace, DepthFormat};
+use shadowfit::{ClipSpace, DepthFormat, Slices};
 
 use crate::ablation::AblationArgs;
 use crate::cut::Cutting;
 use crate::gpu::{Bias, Filter, Points};
+use crate::help::{CHECK_HELP, DRAW_HELP, EXAMPLES, LIGHTS, SWEEP_HELP, WALK_HELP, scenes};
 use crate::light::LightSpec;
+use crate::picture::CloseUp;
 use crate::plan::PlanArgs;
 use crate::run::Options;
-use crate::scene::BUILT_IN;
+use crate::slicing::{Slicing, SplitArg};
 use crate::technique::Technique;
 use crate::trace::Faces;
-
-const EXAMPLES: &str = "\
-Examples:
-  render-check
-      the built-in chess board under a sun, a lamp and a spot: needs no file at all
-  render-check street --technique uniform --technique psm --size 512 --size 2048
-      another built-in scene, two techniques, two sizes of map
-  render-check sponza.glb --eye -11.5,2,-0.3 --target 8,4.5,0 --fov 75 --light sun:0.15,1,0.25
-      a file, a camera and a sun of your own
-  render-check room.glb --light point:0,2.4,0/12 --light spot:3,3,0/0,0,0/50 --filter pcf3
-      a lamp that reaches 12 units and a spot with a cone of 50 degrees, read with 3 x 3 texels
-  render-check room --light point:0,1.5,-2.5 --technique cube --technique cube-psm
-      a lamp among what it lights: a map for each face of the cube around it
-  render-check draw city.glb --near 1 --far inf --size 2048
-      only the fit and its pictures, by ray casting: needs no graphics driver
-  render-check walk street --steps 48
-      a camera that walks, and the pixels that flicker
-  render-check sweep
-      the hard cases: lights through the camera's plane, every clip space, scenes of any size";
-
-const LIGHTS: &str = "\
-Lights (parts are separated by '/'; all in world units, Y is up):
-  sun:X,Y,Z                               directional; X,Y,Z points TOWARDS the light: sun:0,1,0 is noon
-  point:X,Y,Z[/RANGE]                     a lamp at X,Y,Z; RANGE is how far it reaches, else without end
-  spot:X,Y,Z/TX,TY,TZ/DEGREES[/RANGE]     a lamp at X,Y,Z aimed at TX,TY,TZ; DEGREES is the full cone angle
-  Without --light: the lights of the scene, and where it has none, a sun.
-
-The camera:
-  --eye and --target; without them the first perspective camera of the scene; without one, a camera that shows
-  the whole scene. Near and far planes that nobody gives are put close around what is in view.";
-
-const CHECK_HELP: &str = "\
-What is compared: every pixel that the light could reach, were nothing in its way. The card draws the map with the
-crate's matrix and tests the pixel against it; a ray from the same point to the light says what is true.
-
-The table:
-  passes      maps drawn: one, or one for each face of a cube that has anything to hold
-  drawn       triangles that culling against H left to draw, over all passes, of those in the scene
-  aliasing    the longer side of a texel over that of a pixel: at worst among the pixels, and the median
-  missing     pixels lit because a caster was clipped or culled: must be none
-  false       false shadow and false light, away from edges, in percent of what is compared
-  edge        wrong within a texel's reach, or within a pixel, of the edge of a true shadow, in percent
-  virtual     pixels where texels disagreed and virtual samples decided, in percent
-  worst       the largest cluster of wrong pixels that are no edge: how many, and where
-  fit, map, test   times of the fit on the processor and of the card's passes, medians over --frames
-
-Written to --out, per light and map:
-  check.json               everything, for programs
-  N-KIND-truth.png         the camera's view with ray-traced shadows
-  N-KIND-MAP-image.png     the same with the shadows of the map
-  N-KIND-MAP-faults.png    false shadow red, false light blue, edges amber, missing casters magenta
-  N-KIND-MAP-map.png       the shadow map; those of a cube's faces from left to right, +x first
-  N-KIND-MAP-aliasing.png  texel over pixel";
-
-const DRAW_HELP: &str = "\
-Pictures, per light (N counts the lights from 1):
-  N-KIND-camera.png   the camera's view with ray-traced shadows; the focus body H in orange, dim where hidden
-  N-KIND-light.png    the scene as the light sees it: H in orange, the camera's frustum in blue; what lies
-                      outside H, and so need not be in the shadow map, is darkened
-  N-KIND-maps.png     the depths in the uniform map (left) and in the perspective shadow map (right), with H
-
-The table:
-  class       what the camera's perspective makes of the light (a point light, one on the infinity plane, …)
-  s           how far the virtual camera of the PSM moves back for the whole of H, in world units
-  H           vertices, faces and share of the scene's box, as in the paper; below, of its tight form
-  map         uniform; PSM, the perspective shadow map; and the PSM without the move back
-  window      what a map would cover if it were everywhere as it is in its middle: world units for a sun, width over
-              distance for a lamp
-  aliasing    the longest side of a texel over that of a pixel, at its worst in view: 1 is ideal, above it shows
-  fit         the median time of one PSM fit, on this machine";
-
-const WALK_HELP: &str = "\
-What is counted: pixels of each step that change between light and shadow when the map fitted for the next step takes
-the place of this step's, though nothing moved but the camera, so that the truth is the same. Only points that both
-cameras have in view count. Written to --out: walk.json.";
-
-const SWEEP_HELP: &str = "\
-Each case is a small picture of a built-in scene, drawn with every technique and held against ray-traced truth. The
-table has a line for each group of cases, with the worst that was found in it; --out gets all of it as sweep.json.
-The command fails when a caster is missing anywhere.";
-
-/// The built-in scenes, and what each shows.
-fn scenes() -> String {
-    let lines = BUILT_IN.map(|scene| format!("\n  {:12}{}", scene.name, scene.shows));
-    format!("Built-in scenes:{}", lines.concat())
-}
+use crate::values::{
+    parse_angle, parse_bias, parse_distance, parse_field_of_view, parse_finite_distance, parse_vector,
+};
 
 /// Draws scenes with fitted shadow maps on a graphics card and compares every pixel with ray-traced truth.
 ///
@@ -199,13 +118,22 @@ impl ViewArgs {
 /// How maps are fitted, drawn and read.
 #[derive(Clone, Debug, clap::Args)]
 pub struct MapArgs {
-    /// A way to spread the texels; may be given several times [default: uniform, psm, psm-unshifted]
+    /// A way to spread the texels; may be given several times [default: uniform, psm, light-space, best]
     #[arg(long = "technique", value_name = "TECHNIQUE", value_enum)]
     pub techniques: Vec<Technique>,
 
     /// Texels along each side of a map; may be given several times [default: 1024]
     #[arg(long = "size", value_name = "TEXELS", value_parser = RangedU64ValueParser::<u32>::new().range(16..=16384))]
     pub sizes: Vec<u32>,
+
+    /// Cut the view into so many slices in depth, each with a map of its own; may be given several times. Of stable maps
+    /// between the camera's planes, of others between the depths of what may be seen
+    #[arg(long, value_name = "COUNT", value_parser = RangedU64ValueParser::<u32>::new().range(1..=Slices::MAX as u64))]
+    pub slices: Vec<u32>,
+
+    /// How depths are shared out among slices: uniform, log, or blended:PART with the logarithmic part
+    #[arg(long, value_name = "SPLIT", default_value_t, requires = "slices")]
+    pub split: SplitArg,
 
     /// Bits of depth
     #[arg(long, value_enum, default_value_t = FormatArg::Unorm24)]
@@ -242,9 +170,12 @@ impl MapArgs {
     /// The options of every map that is asked for, each drawn so many times.
     #[must_use]
     pub fn options(&self, frames: u32) -> Vec<Options> {
-        let techniques = if self.techniques.is_empty() { &Technique::COMPARED[..] } else { &self.techniques };
+        let techniques = Technique::or_compared(&self.techniques);
         let sizes = if self.sizes.is_empty() { &[1024][..] } else { &self.sizes };
-        let of = |&map_size: &u32, &technique: &Technique| Options {
+        let slicing = |&count: &u32| Some(Slicing { count: count as usize, split: self.split });
+        let slicings = if self.slices.is_empty() { vec![None] } else { self.slices.iter().map(slicing).collect() };
+        let of = |map_size: u32, slicing: Option<Slicing>, technique: Technique| Options {
+            slicing,
             clip: self.clip,
             format: self.format.into(),
             faces: self.faces,
@@ -255,7 +186,13 @@ impl MapArgs {
             frames,
             ..Options::new(technique, map_size)
         };
-        sizes.iter().flat_map(|size| techniques.iter().map(move |technique| of(size, technique))).collect()
+        let mut all = Vec::new();
+        for &size in sizes {
+            for &slicing in &slicings {
+                all.extend(techniques.iter().map(|&technique| of(size, slicing, technique)));
+            }
+        }
+        all
     }
 }
 
@@ -275,6 +212,10 @@ pub struct CheckArgs {
     #[arg(long)]
     pub narrow: bool,
 
+    /// A square of the picture to look at closely: the pixel in its middle, and pixels along its side
+    #[arg(long, value_name = "X,Y,SIDE")]
+    pub close_up: Option<CloseUp>,
+
     /// How often each map is drawn and read, for the median of the times
     #[arg(long, default_value_t = 3, value_parser = RangedU64ValueParser::<u32>::new().range(1..=1000))]
     pub frames: u32,
@@ -286,6 +227,10 @@ pub struct DrawArgs {
     /// The camera, the scene, the lights.
     #[command(flatten)]
     pub view: ViewArgs,
+
+    /// A way to spread the texels of a single map; may be given several times [default: uniform, psm, light-space, best]
+    #[arg(long = "technique", value_name = "TECHNIQUE", value_enum)]
+    pub techniques: Vec<Technique>,
 
     /// Texels along each side of a shadow map
     #[arg(long, value_name = "TEXELS", default_value_t = 1024, value_parser = RangedU64ValueParser::<u32>::new().range(16..=16384))]
@@ -385,58 +330,6 @@ impl From<ClipArg> for ClipSpace {
     }
 }
 
-/// Reads `STEPS,SLOPE`.
-fn parse_bias(text: &str) -> Result<Bias, String> {
-    let wrong = || format!("'{text}' should be a whole number of steps, a comma and a slope: 9,1.5");
-    let (constant, slope) = text.split_once(',').ok_or_else(wrong)?;
-    let slope = slope.trim().parse().ok().filter(|slope: &f32| slope.is_finite());
-    let constant = constant.trim().parse().map_err(|_| wrong())?;
-    Ok(Bias { constant, slope: slope.ok_or_else(wrong)? })
-}
-
-/// Reads `X,Y,Z`: three finite numbers.
-///
-/// # Errors
-///
-/// A sentence that names what is wrong.
-pub fn parse_vector(text: &str) -> Result<DVec3, String> {
-    let numbers = text
-        .split(',')
-        .map(|part| match part.trim().parse::<f64>() {
-            Ok(number) if number.is_finite() => Ok(number),
-            _ => Err(format!("'{part}' in '{text}' is not a number")),
-        })
-        .collect::<Result<Vec<f64>, String>>()?;
-    match numbers[..] {
-        [x, y, z] => Ok(DVec3::new(x, y, z)),
-        _ => Err(format!("'{text}' should be three numbers with commas between: X,Y,Z")),
-    }
-}
-
-fn parse_field_of_view(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(degrees) if degrees > 0.0 && degrees < 180.0 => Ok(degrees),
-        _ => Err("a field of view is an angle between 0 and 180 degrees".into()),
-    }
-}
-
-fn parse_angle(text: &str) -> Result<f64, String> {
-    let degrees = text.trim().parse().ok().filter(|degrees: &f64| degrees.is_finite());
-    degrees.ok_or_else(|| "an angle is a number of degrees".into())
-}
-
-fn parse_finite_distance(text: &str) -> Result<f64, String> {
-    let distance = parse_distance(text)?;
-    if distance.is_finite() { Ok(distance) } else { Err("this distance must have an end".into()) }
-}
-
-fn parse_distance(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(distance) if distance > 0.0 => Ok(distance),
-        _ => Err("a distance is a number greater than zero".into()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;
@@ -452,8 +345,14 @@ mod tests {
     fn no_argument_is_enough() {
         let args = Args::parse_from(["render-check"]);
         assert!(args.command.is_none());
-        let CheckArgs { view, map, narrow, frames } = args.check;
-        assert!(!narrow && view.lights.is_empty() && view.eye.is_none() && map.techniques.is_empty());
+        let CheckArgs { view, map, narrow, close_up, frames } = args.check;
+        assert!(
+            !narrow
+                && close_up.is_none()
+                && view.lights.is_empty()
+                && view.eye.is_none()
+                && map.techniques.is_empty()
+        );
         assert_eq!((view.scene, view.width, view.height, frames), ("chess-board".into(), 960, 600, 3));
     }
 
@@ -471,7 +370,7 @@ mod tests {
     #[test]
     fn every_example_in_the_help_is_a_command() {
         let commands: Vec<_> = EXAMPLES.lines().filter(|line| line.starts_with("  render-check")).collect();
-        assert_eq!(commands.len(), 8);
+        assert_eq!(commands.len(), 9);
         for command in commands {
             Args::try_parse_from(command.split_whitespace()).expect(command);
         }
@@ -513,7 +412,13 @@ mod tests {
             "--bias 3",
             "--bias 1,NaN",
             "--technique lispsm",
-            "draw --technique psm",
+            "--slices 0",
+            "--slices 9",
+            "--slices 2 --split blended",
+            "--split log",
+            "--close-up 1,2",
+            "--close-up 1,2,0",
+            "draw --technique lispsm",
             "--near inf",
             "--lamp-near inf",
             "walk --pace inf",

@@ -13,7 +13,7 @@ use crate::check_table::CheckTable;
 use crate::fitting::NoMap;
 use crate::gpu::Gpu;
 use crate::opening::{choose_lights, open, output_directory, place_camera, say, sort};
-use crate::picture::{Lighting, aliasing_map, difference, save, shaded, side_by_side, stored_map};
+use crate::picture::{CloseUp, Lighting, aliasing_map, difference, save, shaded, side_by_side, stored_map, tinted};
 use crate::progress::bar;
 use crate::report::{self, CameraReport, RunReport};
 use crate::run::{MapRun, Options, run};
@@ -61,7 +61,7 @@ pub fn check(args: &CheckArgs) -> Result<()> {
     let mut runs = Vec::new();
     for (i, spec) in lights.into_iter().enumerate() {
         let light = stage.light(spec)?;
-        let pictures = Pictures::new(&out, i + 1, &stage, &light)?;
+        let mut pictures = Pictures::new(&out, i + 1, &stage, &light, args.close_up)?;
         let mut table = CheckTable::new();
         for options in &options {
             let result = run(&stage, &light, options)?;
@@ -73,6 +73,7 @@ pub fn check(args: &CheckArgs) -> Result<()> {
             runs.push(RunReport::new(&view, &light, options, &result));
             bar.inc(1);
         }
+        pictures.finish()?;
         let class = shadowfit::classify(&view, &light.light).kind;
         let [compared, shadowed] = [light.truth.compared(), light.truth.shadowed()];
         let title = format!("\nlight {}: {spec}, {class}; {compared} pixels compared, {shadowed} in shadow", i + 1);
@@ -120,15 +121,26 @@ struct Pictures<'a> {
     mesh: &'a Mesh,
     lighting: Lighting,
     truth: RgbImage,
+    close_up: Option<CloseUp>,
+    /// Of the truth, and of each run.
+    close_ups: Vec<RgbImage>,
 }
 
 impl<'a> Pictures<'a> {
     /// Writes the true picture, too.
-    fn new(out: &'a Path, number: usize, stage: &'a Stage<'a>, light: &'a StageLight) -> Result<Self> {
+    fn new(
+        out: &'a Path,
+        number: usize,
+        stage: &'a Stage<'a>,
+        light: &'a StageLight,
+        close_up: Option<CloseUp>,
+    ) -> Result<Self> {
         let (min, max) = stage.tracer.bounds();
         let lighting = Lighting::new(light.spec, 0.5 * (min + max));
         let truth = shaded(&light.truth, &lighting, stage.tracer.mesh(), &light.truth.lit());
-        let pictures = Self { out, number, light, mesh: stage.tracer.mesh(), lighting, truth };
+        let close_ups = close_up.iter().map(|close_up| close_up.of(&truth, "truth")).collect();
+        let mesh = stage.tracer.mesh();
+        let pictures = Self { out, number, light, mesh, lighting, truth, close_up, close_ups };
         pictures.save("truth", &pictures.truth)?;
         Ok(pictures)
     }
@@ -137,14 +149,24 @@ impl<'a> Pictures<'a> {
         save(image, &self.out.join(format!("{}-{}-{what}.png", self.number, self.light.spec.kind())))
     }
 
-    fn of_run(&self, options: &Options, result: &Result<MapRun, NoMap>) -> Result<()> {
+    fn of_run(&mut self, options: &Options, result: &Result<MapRun, NoMap>) -> Result<()> {
         let Ok(run) = result else { return Ok(()) };
-        let name = format!("{}-{}", options.technique, options.map_size);
-        self.save(&format!("{name}-image"), &shaded(&self.light.truth, &self.lighting, self.mesh, &run.lit))?;
+        let name = options.name().replace(" x ", "x").replace(' ', "-");
+        let image = shaded(&self.light.truth, &self.lighting, self.mesh, &run.lit);
+        self.save(&format!("{name}-image"), &image)?;
+        self.close_ups.extend(self.close_up.map(|close_up| close_up.of(&image, &options.technique.to_string())));
         self.save(&format!("{name}-faults"), &difference(&self.truth, &run.verdict.marks))?;
         let of_maps = run.fitted.maps.iter().flatten().zip(&run.depths);
         let stored: Vec<_> = of_maps.map(|(fitted, depths)| stored_map(&fitted.map, depths)).collect();
         self.save(&format!("{name}-map"), &side_by_side(&stored))?;
+        if options.slicing.is_some() {
+            let tinted = tinted(&image, &self.light.truth, &run.fitted.split);
+            self.save(&format!("{name}-slices"), &side_by_side(&[self.truth.clone(), tinted]))?;
+        }
         self.save(&format!("{name}-aliasing"), &aliasing_map(&self.light.truth, |point| run.aliasing(point)))
+    }
+
+    fn finish(&self) -> Result<()> {
+        if self.close_ups.is_empty() { Ok(()) } else { self.save("close-up", &side_by_side(&self.close_ups)) }
     }
 }

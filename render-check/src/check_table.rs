@@ -16,8 +16,21 @@ pub struct CheckTable {
     reasons: Vec<String>,
 }
 
-const COLUMNS: [&str; 12] = [
-    "map", "passes", "drawn", "aliasing", "missing", "false", "edge", "virtual", "worst", "fit", "map pass", "test",
+const COLUMNS: [&str; 14] = [
+    "map",
+    "passes",
+    "drawn",
+    "predicted",
+    "limit",
+    "aliasing",
+    "missing",
+    "false",
+    "edge",
+    "virtual",
+    "worst",
+    "fit",
+    "map pass",
+    "test",
 ];
 
 impl CheckTable {
@@ -33,9 +46,11 @@ impl CheckTable {
         let share = |count: usize| percent(counts.fraction(count));
         let milliseconds = |time: Option<f64>| time.map_or_else(|| "-".into(), |ms| format!("{ms:.2} ms"));
         self.table.add_row([
-            name(options),
+            options.name(),
             run.depths.len().to_string(),
             format!("{:.0} %", 100.0 * run.drawn.triangles as f64 / run.drawn.of_triangles as f64),
+            run.prediction.predicted.map_or_else(|| "-".into(), number),
+            number(run.prediction.limit),
             run.verdict.aliasing.map_or_else(
                 || "-".into(),
                 |aliasing| format!("{}, {}", number(aliasing.worst), number(aliasing.median)),
@@ -53,10 +68,10 @@ impl CheckTable {
 
     /// A row for none.
     pub fn add_no_map(&mut self, options: &Options, none: &NoMap) {
-        let mut row = vec![name(options)];
+        let mut row = vec![options.name()];
         row.resize(COLUMNS.len(), "-".into());
         self.table.add_row(row);
-        self.reasons.push(format!("{}: no map: {none}", name(options)));
+        self.reasons.push(format!("{}: no map: {none}", options.name()));
     }
 }
 
@@ -71,10 +86,6 @@ impl fmt::Display for CheckTable {
         self.table.fmt(f)?;
         self.reasons.iter().try_for_each(|reason| write!(f, "\n{reason}"))
     }
-}
-
-fn name(options: &Options) -> String {
-    format!("{} {}", options.technique, options.map_size)
 }
 
 fn place(cluster: &Cluster) -> String {

@@ -2,14 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
-use shadowfit::{Outcome, Settings, View};
+use anyhow::{Context, Result, bail};
+use shadowfit::{Settings, View};
 
 use crate::args::DrawArgs;
 use crate::fitting::{LightFit, fit_light, lamp_near, map_or_reason};
 use crate::fitting_table::table;
 use crate::opening::{choose_lights, open, output_directory, place_camera, say, sort};
 use crate::picture::{Lens, Lighting, Line, camera_view, light_lens, light_view, maps_view, save};
+use crate::technique::Technique;
 use crate::trace::Tracer;
 
 /// Fits and draws every light of a scene.
@@ -19,6 +20,10 @@ use crate::trace::Tracer;
 /// When nothing sensible can be shown, with a message that says what to do.
 pub fn draw(args: &DrawArgs) -> Result<()> {
     let settings = Settings::new(args.size, args.view.height).context("the sizes cannot be used")?;
+    let techniques = Technique::or_compared(&args.techniques);
+    if let Some(several) = techniques.iter().find(|technique| technique.has_faces() || technique.is_paraboloid()) {
+        bail!("single maps are drawn here: leave out --technique {several}");
+    }
     let scene = open(&args.view)?;
     let out = output_directory(&args.view, &scene)?;
     let tracer = sort(&scene.mesh)?;
@@ -27,11 +32,11 @@ pub fn draw(args: &DrawArgs) -> Result<()> {
     let lamp_near = args.view.lamp_near.unwrap_or_else(|| lamp_near(&scene.mesh));
     let fits = choose_lights(&args.view, &scene)
         .into_iter()
-        .map(|light| fit_light(light, &view, &scene.mesh, lamp_near, &settings))
+        .map(|light| fit_light(light, &view, &scene.mesh, lamp_near, &settings, techniques))
         .collect::<Result<Vec<_>>>()?;
     say(&table(&fits, tracer.bounds()).to_string());
     for (i, fit) in fits.iter().enumerate() {
-        if let Err(none) = map_or_reason(fit.perspective.outcome) {
+        if let Err(none) = map_or_reason(fit.maps[0].outcome) {
             say(&format!("light {}: no map: {none}", i + 1));
         }
     }
@@ -70,14 +75,14 @@ fn draw_light(
     let lens = light_lens(&fit.spec, view, &fit.body, tracer.mesh(), args.view.aspect())?;
     write("light", &light_view(&lens, view, tracer, &fit.body, size))?;
 
-    let [uniform, perspective] = [map_lens(&fit.uniform.outcome)?, map_lens(&fit.perspective.outcome)?];
-    if uniform.is_some() || perspective.is_some() {
-        let maps = [("uniform", uniform.as_ref()), ("perspective", perspective.as_ref())];
-        write("maps", &maps_view(maps, args.size, tracer, &edges))?;
+    let mut lenses = Vec::new();
+    for fitted in &fit.maps {
+        if let Some(map) = fitted.outcome.map() {
+            lenses.push((fitted.technique.to_string(), Lens::new(map.shadow_from_world())?));
+        }
+    }
+    if !lenses.is_empty() {
+        write("maps", &maps_view(&lenses, args.size, tracer, &edges))?;
     }
     Ok(written)
-}
-
-fn map_lens(outcome: &Outcome) -> Result<Option<Lens>> {
-    outcome.map().map(|map| Lens::new(map.shadow_from_world())).transpose()
 }

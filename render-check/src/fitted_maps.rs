@@ -3,10 +3,10 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use serde::Serialize;
 use shadowfit::glam::DVec3;
-use shadowfit::{Body, CubeFace, Empty, Focus, Form, Light, Paraboloids, Plane, Settings, fit};
+use shadowfit::{Body, CubeFace, Empty, Focus, Form, Light, Map, Outcome, Paraboloids, Plane, Settings};
 
 use crate::cut::{Cut, Cutting};
 use crate::fitting::{NoMap, map_or_reason};
@@ -14,6 +14,7 @@ use crate::gpu::{MapDraw, MapPass, ShadowMaps};
 use crate::layout::Layout;
 use crate::run::Options;
 use crate::scene::{Mesh, Object};
+use crate::slicing;
 use crate::split::Split;
 use crate::stage::Stage;
 
@@ -29,16 +30,26 @@ pub struct FittedMap {
 }
 
 impl FittedMap {
-    /// Fits a frustum as a renderer does and culls the casters against H; or says why there is no map.
-    fn new(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
-        let focus = Focus::new(&stage.fitted_view, light, &stage.bounds);
-        let map = match map_or_reason(focus.fit(&options.settings(stage)?)) {
+    /// Fits a frustum as a renderer does, after that of the frame before, if there is one, and culls the casters against H;
+    /// or says why there is no map.
+    fn new(
+        stage: &Stage<'_>,
+        focus: &Focus<'_>,
+        options: &Options,
+        before: Option<&Map>,
+    ) -> Result<Result<Self, NoMap>> {
+        let map = match map_or_reason(fitted(focus, before, &options.settings(stage)?)) {
             Ok(map) => Layout::Frustum(map),
             Err(none) => return Ok(Err(none)),
         };
         let objects = casters(stage, &focus.body(Form::Tight), |_| true);
         Ok(Ok(Self { map, pass: options.pass(&map)?, objects }))
     }
+}
+
+/// Fits a frustum, after that of the frame before, if there is one.
+fn fitted(focus: &Focus<'_>, before: Option<&Map>, settings: &Settings) -> Outcome {
+    before.map_or_else(|| focus.fit(settings), |before| focus.fit_from(before, settings))
 }
 
 /// The objects that meet a body and are no others.
@@ -89,14 +100,34 @@ impl FittedMaps {
     ///
     /// When the settings cannot be used, or casters cannot be cut.
     pub fn new(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
-        if options.technique.is_paraboloid() && light.position().is_some() {
+        Self::after(None, stage, light, options)
+    }
+
+    /// The same after those of the frame before, if there are any.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub fn after(
+        before: Option<&Self>,
+        stage: &Stage<'_>,
+        light: &Light,
+        options: &Options,
+    ) -> Result<Result<Self, NoMap>> {
+        let is_paraboloid = options.technique.is_paraboloid();
+        ensure!(
+            options.slicing.is_none() || !(is_paraboloid || options.technique.has_faces()),
+            "slices have a frustum each: '{}' takes no --slices",
+            options.technique
+        );
+        if is_paraboloid && light.position().is_some() {
             return Self::paraboloids(stage, light, options);
         }
-        let (split, lights) = parts(light, options)?;
+        let (split, lights) = parts(stage, light, options)?;
         let mut maps = Vec::new();
         let mut reason = NoMap::Empty(Empty::NothingVisible);
-        for light in &lights {
-            match FittedMap::new(stage, light, options)? {
+        for (part, focus) in foci(stage, &split, &lights).iter().enumerate() {
+            match FittedMap::new(stage, focus, options, before.and_then(|before| before.frustum(part)))? {
                 Ok(map) => maps.push(Some(map)),
                 Err(none @ NoMap::Surrounded(_)) => return Ok(Err(none)),
                 Err(none) => {
@@ -163,18 +194,48 @@ impl FittedMaps {
         Ok(Self { split, lights, maps, cut: cut.map(Arc::new) })
     }
 
-    /// Fits all again, for the time that it takes; how many maps there are.
+    /// The matrix's map of a part of the light, if it has one.
     #[must_use]
-    pub fn fit_again(&self, stage: &Stage<'_>, settings: &Settings) -> usize {
+    pub fn frustum(&self, part: usize) -> Option<&Map> {
+        match &self.maps.get(part)?.as_ref()?.map {
+            Layout::Frustum(map) => Some(map),
+            Layout::Paraboloid(_) => None,
+        }
+    }
+
+    /// Whether any of the maps was found elsewhere than at the one of the frame before, see [`Map::switched`].
+    #[must_use]
+    pub fn switched(&self) -> bool {
+        (0..self.maps.len()).filter_map(|part| self.frustum(part)).any(Map::switched)
+    }
+
+    /// What the map of each part was fitted to; of paraboloids all that both were.
+    #[must_use]
+    pub fn foci(&self, stage: &Stage<'_>) -> Vec<Focus<'static>> {
+        foci(stage, &self.split, &self.lights)
+    }
+
+    /// Fits all again, after those of the frame before, if there are any, for the time that it takes; how many maps there
+    /// are.
+    #[must_use]
+    pub fn fit_again(&self, before: Option<&Self>, stage: &Stage<'_>, settings: &Settings) -> usize {
         let is_paraboloid = self.maps.iter().flatten().any(|map| matches!(map.map, Layout::Paraboloid(_)));
-        let maps = |light: &Light| {
+        let maps = |part: usize, focus: &Focus<'_>| {
             if is_paraboloid {
-                Focus::new(&stage.fitted_view, light, &stage.bounds).paraboloids(settings).maps().len()
+                focus.paraboloids(settings).maps().len()
             } else {
-                usize::from(fit(&stage.fitted_view, light, &stage.bounds, settings).map().is_some())
+                let before = before.and_then(|before| before.frustum(part));
+                usize::from(fitted(focus, before, settings).map().is_some())
             }
         };
-        self.lights.iter().map(maps).sum()
+        let view = &stage.fitted_view;
+        if let (Split::Depths { cuts, .. }, [light]) = (&self.split, &self.lights[..]) {
+            let slices = slicing::slices(view, light, &stage.bounds, *cuts);
+            return slices
+                .map_or(0, |slices| (0..).zip(&*slices).map(|(part, slice)| maps(part, &slice.focus)).sum());
+        }
+        let of_light = |(part, light)| maps(part, &Focus::new(view, light, &stage.bounds));
+        self.lights.iter().enumerate().map(of_light).sum()
     }
 
     /// Draws the casters.
@@ -222,9 +283,14 @@ impl FittedMaps {
     }
 }
 
-/// The parts of a light that have a map each, and which points belong to which. A light that needs no cube around it, a
-/// sun or a spot, has one map whatever the technique.
-fn parts(light: &Light, options: &Options) -> Result<(Split, Vec<Light>)> {
+/// The parts of a light that have a map each, and which points belong to which; one light for all slices. A light that needs
+/// no cube around it, a sun or a spot, has one map whatever the technique.
+fn parts(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<(Split, Vec<Light>)> {
+    if let Some(slicing) = options.slicing {
+        let cuts = slicing.cuts(options.technique.stays_put());
+        let slices = slicing::slices(&stage.fitted_view, light, &stage.bounds, cuts)?;
+        return Ok((Split::slices(cuts, slices), vec![*light]));
+    }
     let overlap = CubeFace::overlap(options.filter.reach(), options.map_size, options.border());
     match light.position() {
         Some(position) if options.technique.has_faces() && light.cube_face(CubeFace::PositiveX, 0.0).is_ok() => {
@@ -233,5 +299,15 @@ fn parts(light: &Light, options: &Options) -> Result<(Split, Vec<Light>)> {
             Ok((Split::cube(position), lights))
         }
         _ => Ok((Split::whole(), vec![*light])),
+    }
+}
+
+/// What the map of each part is fitted to.
+fn foci(stage: &Stage<'_>, split: &Split, lights: &[Light]) -> Vec<Focus<'static>> {
+    match split {
+        Split::Directions { .. } => {
+            lights.iter().map(|light| Focus::new(&stage.fitted_view, light, &stage.bounds)).collect()
+        }
+        Split::Depths { slices, .. } => slices.iter().map(|slice| slice.focus.clone()).collect(),
     }
 }

@@ -6,12 +6,13 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 use shadowfit::{
-    Body, Empty, Focus, Form, Light, LightClass, Map, Outcome, Report, Scene, Settings, Shift, Surrounded, View,
-    Warp, classify, fit,
+    Body, Empty, Focus, Form, Light, LightClass, Map, Outcome, Report, Scene, Settings, Surrounded, View, classify,
+    fit,
 };
 
 use crate::light::LightSpec;
 use crate::scene::Mesh;
+use crate::technique::Technique;
 
 /// A lamp's shadow map begins this far from it, as a part of the diagonal of the scene's box: inside any lampshade.
 const LAMP_NEAR: f64 = 1e-3;
@@ -22,10 +23,16 @@ const TIMING_BUDGET: Duration = Duration::from_millis(100);
 /// One way to fit a light, and what came of it.
 #[derive(Debug)]
 pub struct Fitted {
+    /// How the texels are spread.
+    pub technique: Technique,
     /// The map, or why there is none.
     pub outcome: Outcome,
     /// What there is to know about the map.
     pub report: Option<Report>,
+    /// How much larger a texel is than a pixel at worst, anywhere in what may be visible.
+    pub aliasing: Option<f64>,
+    /// The median time of a fit on this machine.
+    pub median_time: Duration,
 }
 
 /// All that is known of one light.
@@ -39,14 +46,10 @@ pub struct LightFit {
     pub body: Body,
     /// The tight form of H.
     pub tight_body: Body,
-    /// The map without a warp.
-    pub uniform: Fitted,
-    /// The perspective shadow map: the virtual camera moved back for the whole of H, as in the paper.
-    pub perspective: Fitted,
-    /// The perspective shadow map with the virtual camera where the view's is.
-    pub unshifted: Fitted,
-    /// The median time of one perspective fit on this machine.
-    pub median_time: Duration,
+    /// The maps that are compared, in their order.
+    pub maps: Vec<Fitted>,
+    /// What the worst aliasing of a map of so many texels would be at least, however they were spread.
+    pub limit: f64,
 }
 
 /// The fit's answer where there is no map.
@@ -97,7 +100,7 @@ pub fn lamp_near(mesh: &Mesh) -> f64 {
     LAMP_NEAR * (max - min).length()
 }
 
-/// Fits one light.
+/// Fits one light with a single map, by each of some techniques.
 ///
 /// # Errors
 ///
@@ -108,24 +111,26 @@ pub fn fit_light(
     mesh: &Mesh,
     lamp_near: f64,
     settings: &Settings,
+    techniques: &[Technique],
 ) -> Result<LightFit> {
     let scene = scene_box(mesh)?;
     let light: Light = spec.to_light(lamp_near)?;
     let focus = Focus::new(view, &light, &scene);
-    let fitted = |settings: Settings| {
+    let fitted = |&technique: &Technique| {
+        let settings = technique.settings(*settings);
         let outcome = focus.fit(&settings);
-        Fitted { outcome, report: outcome.map().map(|map| map.report(&focus)) }
+        let median_time = median_time(2001, || fit(view, &light, &scene, black_box(&settings)));
+        let report = outcome.map().map(|map| map.report(&focus));
+        let aliasing = outcome.map().and_then(|map| map.aliasing_over(&focus)).map(|found| found.worst);
+        Fitted { technique, outcome, report, aliasing, median_time }
     };
-    let perspective = settings.with_warp(Warp::Perspective).with_shift(Shift::Back(Form::Paper));
     Ok(LightFit {
         spec,
         class: classify(view, &light),
         body: focus.body(Form::Paper),
         tight_body: focus.body(Form::Tight),
-        uniform: fitted(settings.with_warp(Warp::Uniform)),
-        perspective: fitted(perspective),
-        unshifted: fitted(perspective.with_shift(Shift::None)),
-        median_time: median_time(2001, || fit(view, &light, &scene, black_box(&perspective))),
+        maps: techniques.iter().map(fitted).collect(),
+        limit: focus.limit(settings),
     })
 }
 
@@ -153,7 +158,7 @@ mod tests {
     use crate::trace::Tracer;
 
     #[test]
-    fn all_that_the_camera_sees_is_in_both_maps_of_every_light() {
+    fn all_that_the_camera_sees_is_in_all_maps_of_every_light() {
         let scene = scene::load("chess-board".as_ref()).expect("built in");
         let tracer = Tracer::new(&scene.mesh).expect("it has triangles");
         let camera = scene.camera.expect("it has a camera");
@@ -169,9 +174,11 @@ mod tests {
         let settings = Settings::new(256, 600).expect("sound sizes");
         for &spec in scene.lights.iter().filter(|light| light.kind() != "spot") {
             let light_fit =
-                fit_light(spec, &view, &scene.mesh, lamp_near(&scene.mesh), &settings).expect("a sound light");
-            assert!(!light_fit.body.is_empty() && light_fit.median_time > Duration::ZERO);
-            for fitted in [&light_fit.uniform, &light_fit.perspective, &light_fit.unshifted] {
+                fit_light(spec, &view, &scene.mesh, lamp_near(&scene.mesh), &settings, &Technique::WARPS)
+                    .expect("a sound light");
+            assert!(!light_fit.body.is_empty());
+            for fitted in &light_fit.maps {
+                assert!(fitted.median_time > Duration::ZERO);
                 let map = fitted.outcome.map().expect("one frustum does");
                 let lens = Lens::new(map.shadow_from_world()).expect("invertible");
                 for &point in &seen {

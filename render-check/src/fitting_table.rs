@@ -8,23 +8,27 @@ use shadowfit::{Body, Report};
 
 use crate::fitting::{Fitted, LightFit};
 use crate::table::{self, number};
+use crate::technique::Technique;
 
 /// The table of all lights. `bounds` are those of the scene.
 #[must_use]
 pub fn table(fits: &[LightFit], bounds: (DVec3, DVec3)) -> Table {
-    let header = ["", "light", "class", "s", "H", "map", "window", "aliasing", "fit"];
-    let mut table = table::new(header, [0, 3, 7, 8]);
+    let header = ["", "light", "class", "s", "H", "map", "window", "aliasing", "limit", "fit"];
+    let mut table = table::new(header, [0, 3, 7, 8, 9]);
     for (i, fit) in fits.iter().enumerate() {
         table.add_row([
             (i + 1).to_string(),
             fit.spec.to_string(),
             fit.class.kind.to_string(),
-            of(&fit.perspective, |report| number(report.camera.shift)),
+            shift(fit),
             body(fit, bounds),
-            MAPS.join("\n"),
-            each_map(fit, |report| format!("{} x {}", number(report.window.width), number(report.window.height))),
-            each_map(fit, |report| number(report.aliasing)),
-            microseconds(fit.median_time),
+            each_map(fit, |fitted| fitted.technique.to_string()),
+            each_map(fit, |fitted| {
+                of(fitted, |report| format!("{} x {}", number(report.window.width), number(report.window.height)))
+            }),
+            each_map(fit, |fitted| fitted.aliasing.map_or_else(|| "-".into(), number)),
+            number(fit.limit),
+            each_map(fit, |fitted| microseconds(fitted.median_time)),
         ]);
     }
     table
@@ -35,11 +39,15 @@ fn of(fitted: &Fitted, figure: impl Fn(&Report) -> String) -> String {
     fitted.report.as_ref().map_or_else(|| "-".into(), figure)
 }
 
-/// The maps of a light, a line each.
-const MAPS: [&str; 3] = ["uniform", "PSM", "PSM, s = 0"];
+/// How far the virtual camera of the perspective shadow map moves back.
+fn shift(fit: &LightFit) -> String {
+    let perspective = fit.maps.iter().find(|fitted| fitted.technique == Technique::Psm);
+    perspective.map_or_else(|| "-".into(), |fitted| of(fitted, |report| number(report.camera.shift)))
+}
 
-fn each_map(fit: &LightFit, figure: impl Fn(&Report) -> String) -> String {
-    [&fit.uniform, &fit.perspective, &fit.unshifted].map(|fitted| of(fitted, &figure)).join("\n")
+/// A line for each map of a light.
+fn each_map(fit: &LightFit, figure: impl Fn(&Fitted) -> String) -> String {
+    fit.maps.iter().map(figure).collect::<Vec<_>>().join("\n")
 }
 
 fn body(fit: &LightFit, (min, max): (DVec3, DVec3)) -> String {

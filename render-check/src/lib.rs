@@ -6,7 +6,7 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`args`] | the command line |
+//! | [`args`], `values`, `help` | the command line |
 //! | [`light`] | a light as a person writes it, and as the fit takes it |
 //! | [`scene`] | the triangles, cameras and lights of a `.glb` file, or of a scene made by code |
 //! | [`trace`] | rays against the triangles |
@@ -15,9 +15,10 @@
 //! | [`gpu`] | the passes on the card: camera, shadow map, shadow test |
 //! | [`verdict`] | the truth about every pixel, and what is wrong with a rendered one |
 //! | [`stage`] | one camera before one scene, drawn |
-//! | [`split`] | which of a light's maps answers for a point |
+//! | [`split`], [`slicing`] | which of a light's maps answers for a point, and the view cut into slices |
 //! | [`layout`], [`cut`] | the kinds of maps, and triangles cut for those that bend lines |
 //! | [`technique`], [`fitted_maps`], [`run`] | one light through one kind of map: fitted, culled, drawn, tested, judged |
+//! | [`prediction`] | what the fit says of the maps beforehand |
 //! | [`report`], [`table`], [`check_table`] | what is written and printed of it |
 //! | [`picture`] | what is written as PNG |
 //!
@@ -48,21 +49,25 @@ pub mod fitting;
 pub mod fitting_table;
 pub mod framing;
 pub mod gpu;
+pub(crate) mod help;
 pub mod layout;
 pub mod light;
 pub mod opening;
 pub mod picture;
 pub mod plan;
 pub mod planned;
+pub mod prediction;
 pub mod progress;
 pub mod report;
 pub mod run;
 pub mod scene;
+pub mod slicing;
 pub mod split;
 pub mod stage;
 pub mod sweep;
 pub mod table;
 pub mod technique;
 pub mod trace;
+pub(crate) mod values;
 pub mod verdict;
 pub mod walk;

@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use shadowfit::Light;
 use shadowfit::glam::DVec3;
 
-use crate::args::parse_vector;
+use crate::values::parse_vector;
 
 /// A light as written on the command line or in a file, before anything is checked against a scene.
 ///

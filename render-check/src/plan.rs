@@ -18,6 +18,7 @@ use crate::run::{Times, run_fitted};
 use crate::scene::Mesh;
 use crate::stage::{Stage, StageLight};
 use crate::table::{self, number, percent};
+use crate::technique::Technique;
 use crate::verdict::Verdict;
 
 /// What is told after the options.
@@ -72,6 +73,10 @@ pub struct BudgetArgs {
     #[arg(long, value_name = "FILTER", default_value = "hardware", value_parser = parse_filter)]
     pub filter: shadowfit::Filter,
 
+    /// What maps may be warped by, where that is worth it
+    #[arg(long, value_enum, default_value_t = Technique::Psm)]
+    pub warp: Technique,
+
     /// What is fine enough: the longest side of a texel over that of a pixel
     #[arg(long, value_name = "RATIO", default_value_t = 1.0)]
     pub aliasing: f64,
@@ -88,7 +93,7 @@ impl BudgetArgs {
     ///
     /// When it makes no sense.
     pub fn budget(&self, image_height: u32) -> Result<Budget> {
-        let settings = Settings::new(self.size, image_height)?.with_origin(Origin::Eye);
+        let settings = self.warp.settings(Settings::new(self.size, image_height)?.with_origin(Origin::Eye));
         let budget = Budget::new(settings).with_format(self.format.into()).with_filter(self.filter);
         let budget = budget.with_aliasing(self.aliasing).context("nothing can be so fine")?;
         Ok(self.texels.map_or(budget, |texels| budget.with_texels(texels)))

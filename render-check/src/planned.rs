@@ -3,7 +3,7 @@
 use anyhow::{Context, Result};
 use shadowfit::glam::{DVec3, Vec3};
 use shadowfit::{
-    Aabb, CubeFace, DepthFormat, DepthTest, Kind, Light, LightPlan, Object, Objects, Plan, Projection, Shift, Warp,
+    Aabb, CubeFace, DepthFormat, DepthTest, Kind, Light, LightPlan, Object, Objects, Plan, Projection,
 };
 
 use crate::cut::Cutting;
@@ -93,22 +93,18 @@ pub fn options(of_light: &LightPlan, format: DepthFormat, points: Points, frames
 
 /// The technique that comes nearest to a plan.
 fn technique(of_light: &LightPlan) -> Technique {
-    let is_warped = |projection: &Projection| match projection {
-        Projection::Frustum(map) | Projection::Face(_, map) => map.settings().warp() == Warp::Perspective,
-        Projection::Paraboloid(_) => false,
+    let of_pass = |pass: &shadowfit::Pass| match pass.projection() {
+        Projection::Frustum(map) => Technique::of(map.settings()),
+        // Each face has the warp that is the better for it.
+        Projection::Face(_, map) => match Technique::of(map.settings()) {
+            Technique::Uniform => Technique::Cube,
+            Technique::Stable => Technique::CubeStable,
+            _ => Technique::CubePsm,
+        },
+        Projection::Paraboloid(_) => Technique::Paraboloid,
     };
-    let is_moved_back = |projection: &Projection| match projection {
-        Projection::Frustum(map) => map.settings().shift() != Shift::None,
-        _ => false,
-    };
-    let any = |is: &dyn Fn(&Projection) -> bool| of_light.passes().iter().any(|pass| is(pass.projection()));
-    match (of_light.kind(), any(&is_warped)) {
-        (Kind::CubeFaces, true) => Technique::CubePsm,
-        (Kind::CubeFaces, false) => Technique::Cube,
-        (_, true) if any(&is_moved_back) => Technique::Psm,
-        (_, true) => Technique::PsmUnshifted,
-        (_, false) => Technique::Uniform,
-    }
+    let of_passes = of_light.passes().iter().map(of_pass);
+    of_passes.reduce(|one, other| if one == Technique::Cube { other } else { one }).unwrap_or(Technique::Uniform)
 }
 
 /// How a pass of a plan is drawn: with its bias, and as `options` say besides.
@@ -185,7 +181,7 @@ pub fn kind_in_words(kind: Kind) -> &'static str {
     match kind {
         Kind::Nothing => "no map",
         Kind::Uniform => "uniform",
-        Kind::Perspective => "perspective",
+        Kind::Warped => "warped",
         Kind::Paraboloid => "paraboloid",
         Kind::DualParaboloid => "two paraboloids",
         Kind::CubeFaces => "cube faces",

@@ -5,15 +5,17 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use serde::Serialize;
-use shadowfit::View;
 use shadowfit::glam::DVec3;
+use shadowfit::{Map, View};
 
 use crate::args::ClipArg;
 use crate::fitted_maps::{Drawn, FittedMap};
 use crate::fitting::NoMap;
 use crate::gpu::{Filter, MapPass};
 use crate::layout::Layout;
+use crate::prediction::Prediction;
 use crate::run::{MapRun, Options, Times};
+use crate::slicing::Slicing;
 use crate::stage::StageLight;
 use crate::technique::Technique;
 use crate::verdict::Verdict;
@@ -53,6 +55,8 @@ pub struct RunReport {
     pub technique: Technique,
     /// Texels along each side.
     pub map_size: u32,
+    /// How the view is cut into slices; nothing where it is not.
+    pub slicing: Option<Slicing>,
     /// Whose clip space the matrix is for.
     pub clip: ClipArg,
     /// How the map is read.
@@ -94,39 +98,56 @@ pub struct MapsReport {
     pub used_plane: Option<f64>,
     /// How long it took.
     pub times: Times,
+    /// What the fit says of them.
+    #[serde(flatten)]
+    pub prediction: Prediction,
     /// How they compare with the truth.
     #[serde(flatten)]
     pub verdict: Verdict,
 }
 
 /// One map.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct MapReport {
     /// The middle direction of the part of the light that it is for; zeros for all of the light.
     pub axis: [f64; 3],
+    /// The depths before the eye that it is for, from and to; nothing for all, and infinite as nothing.
+    pub depths: Option<[f64; 2]>,
     /// How far the warp's camera moved back, in world units; nothing for a paraboloid.
     pub shift: Option<f64>,
     /// How much of the warp is left out, see [`shadowfit::Map::weakening`]; nothing for a paraboloid.
     pub weakening: Option<f64>,
+    /// Why it has no warp although one was asked for.
+    pub refusal: Option<String>,
     /// How the map was drawn.
     pub pass: MapPass,
 }
 
 impl MapReport {
-    fn new(axis: DVec3, fitted: &FittedMap) -> Self {
-        let (shift, weakening) = match &fitted.map {
-            Layout::Frustum(map) => (Some(map.camera().shift), Some(map.weakening())),
-            Layout::Paraboloid(_) => (None, None),
+    fn new(axis: DVec3, depths: Option<[f64; 2]>, fitted: &FittedMap) -> Self {
+        let map = match &fitted.map {
+            Layout::Frustum(map) => Some(map),
+            Layout::Paraboloid(_) => None,
         };
-        Self { axis: axis.to_array(), shift, weakening, pass: fitted.pass }
+        Self {
+            axis: axis.to_array(),
+            depths,
+            shift: map.map(|map| map.camera().shift),
+            weakening: map.map(Map::weakening),
+            refusal: map.and_then(Map::refusal).map(|refusal| refusal.to_string()),
+            pass: fitted.pass,
+        }
     }
 }
 
 impl MapsReport {
     fn new(run: &MapRun) -> Self {
         let fitted = &run.fitted;
-        let of = fitted.split.axes().iter().zip(&fitted.maps);
-        let maps: Vec<_> = of.filter_map(|(&axis, map)| Some(MapReport::new(axis, map.as_ref()?))).collect();
+        let split = &fitted.split;
+        let report = |(part, map): (usize, &Option<FittedMap>)| {
+            Some(MapReport::new(split.axis(part), split.depths(part), map.as_ref()?))
+        };
+        let maps: Vec<_> = fitted.maps.iter().enumerate().filter_map(report).collect();
         Self {
             passes: maps.len(),
             left_out: fitted.maps.len() - maps.len(),
@@ -135,6 +156,7 @@ impl MapsReport {
             drawn: run.drawn,
             used_plane: run.used_plane,
             times: run.times,
+            prediction: run.prediction,
             verdict: run.verdict.clone(),
         }
     }
@@ -160,6 +182,7 @@ impl RunReport {
             class: shadowfit::classify(view, &light.light).kind.to_string(),
             technique: options.technique,
             map_size: options.map_size,
+            slicing: options.slicing,
             clip: options.clip,
             filter: options.filter,
             result,

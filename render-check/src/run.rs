@@ -13,6 +13,8 @@ use crate::fitted_maps::{Drawn, FittedMaps};
 use crate::fitting::{NoMap, median_time};
 use crate::gpu::{Bias, Filter, MapPass, Points, ShadowMaps, Shadows, shadow_test};
 use crate::layout::Layout;
+use crate::prediction::Prediction;
+use crate::slicing::Slicing;
 use crate::stage::{Stage, StageLight};
 use crate::technique::Technique;
 use crate::trace::Faces;
@@ -25,6 +27,8 @@ pub struct Options {
     pub technique: Technique,
     /// Texels along each side.
     pub map_size: u32,
+    /// How the view is cut into slices with a map each; not at all without.
+    pub slicing: Option<Slicing>,
     /// Whose clip space its matrix is for.
     pub clip: ClipArg,
     /// The depth buffer's format.
@@ -50,6 +54,7 @@ impl Options {
         Self {
             technique,
             map_size,
+            slicing: None,
             clip: ClipArg::Wgpu,
             format: DepthFormat::Unorm24,
             faces: Faces::All,
@@ -59,6 +64,13 @@ impl Options {
             bias: None,
             frames: 1,
         }
+    }
+
+    /// The technique and the size of its maps in words.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let times = self.slicing.map_or_else(String::new, |slicing| format!("{} x ", slicing.count));
+        format!("{} {times}{}", self.technique, self.map_size)
     }
 
     /// How a map is drawn: without a bias for second depth, layers and virtual samples, which do without.
@@ -123,6 +135,8 @@ pub struct MapRun {
     pub drawn: Drawn,
     /// How long it took.
     pub times: Times,
+    /// What the fit says of it.
+    pub prediction: Prediction,
     /// How it compares with the truth.
     pub verdict: Verdict,
 }
@@ -147,7 +161,7 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
         Err(none) => return Ok(Err(none)),
     };
     let settings = options.settings(stage)?;
-    let fit_all = || fitted.fit_again(stage, &settings);
+    let fit_all = || fitted.fit_again(None, stage, &settings);
     // A fit takes a few hundred times less than a frame.
     let fit_time = median_time(300 * options.frames as usize - 299, fit_all);
     Ok(Ok(run_fitted(stage, light, options, fitted, fit_time)?))
@@ -185,9 +199,9 @@ pub fn run_fitted(
         camera_ms: median_ms(vec![stage.surfaces.time]),
         shadow_test_ms: median_ms(shadow_test_times),
     };
-    let drawn = fitted.drawn(stage);
+    let (drawn, prediction) = (fitted.drawn(stage), Prediction::new(&fitted, stage, &light.light));
     let used_plane = matches!(options.filter, Filter::Virtual(_)).then(|| light.truth.share(&used_plane));
-    Ok(MapRun { fitted, depths, lit, used_plane, drawn, times, verdict })
+    Ok(MapRun { fitted, depths, lit, used_plane, drawn, times, prediction, verdict })
 }
 
 /// Holds what was drawn against the truth.

@@ -1,5 +1,7 @@
 //! A camera that walks, and the pixels that flicker: light and shadow that change though the truth does not.
 
+use std::time::Duration;
+
 use anyhow::Result;
 use comfy_table::Table;
 use serde::Serialize;
@@ -8,13 +10,16 @@ use shadowfit::glam::DQuat;
 
 use crate::args::WalkArgs;
 use crate::fitted_maps::FittedMaps;
+use crate::fitting::median_time;
 use crate::framing::Camera;
 use crate::gpu::{Gpu, Surfaces, shadow_test};
+use crate::light::LightSpec;
 use crate::opening::{choose_lights, open, output_directory, place_camera, say, sort};
 use crate::picture::Lens;
 use crate::progress::bar;
 use crate::report;
 use crate::run::Options;
+use crate::slicing::Slicing;
 use crate::stage::{Stage, StageLight};
 use crate::table::{self, percent};
 use crate::technique::Technique;
@@ -23,6 +28,9 @@ use crate::verdict::share;
 
 /// How far the camera goes in a step by default, over the distance to what is in the middle of its picture.
 const PACE: f64 = 0.01;
+
+/// How often each map is fitted again, for the median of the times.
+const FITS: usize = 9;
 
 /// What flickered under one light through one kind of map.
 #[derive(Clone, Debug, Serialize)]
@@ -33,6 +41,17 @@ pub struct Flicker {
     pub technique: Technique,
     /// Texels along each side.
     pub map_size: u32,
+    /// How the view is cut into slices; nothing where it is not.
+    pub slicing: Option<Slicing>,
+    /// The technique and the sizes in words.
+    #[serde(skip)]
+    pub name: String,
+    /// Whether each map is found from the one of the step before.
+    pub warm: bool,
+    /// The median over the steps of the time of a fit, on the processor, in microseconds.
+    pub fit_us: f64,
+    /// How often one found so was another than the one before.
+    pub switches: usize,
     /// What changed in each step; nothing where one of its two cameras has no map.
     pub steps: Vec<Option<Step>>,
 }
@@ -42,6 +61,8 @@ pub struct Flicker {
 pub struct Step {
     /// Pixels that changed between light and shadow.
     pub changed: usize,
+    /// Those of them that another map answers for than before, as the camera moved them over a cut between slices.
+    pub over_a_cut: usize,
     /// Pixels whose point both cameras have in view and the light could reach.
     pub compared: usize,
 }
@@ -59,6 +80,13 @@ impl Flicker {
     #[must_use]
     pub fn mean(&self) -> f64 {
         let shares = self.steps.iter().flatten().map(Step::share);
+        shares.clone().sum::<f64>() / shares.count().max(1) as f64
+    }
+
+    /// The same of those that another map answers for.
+    #[must_use]
+    pub fn mean_over_cuts(&self) -> f64 {
+        let shares = self.steps.iter().flatten().map(|step| share(step.over_a_cut, step.compared));
         shares.clone().sum::<f64>() / shares.count().max(1) as f64
     }
 
@@ -88,31 +116,28 @@ pub fn walk(args: &WalkArgs) -> Result<()> {
         gpu.name()
     ));
 
-    let options = args.map.options(1);
+    let ways = ways(&args.map.options(1));
     let lights = choose_lights(&args.view, &scene);
-    let mut flickers: Vec<Flicker> = lights
-        .iter()
-        .flat_map(|light| options.iter().map(move |options| (light, options)))
-        .map(|(light, options)| Flicker {
-            light: light.to_string(),
-            technique: options.technique,
-            map_size: options.map_size,
-            steps: Vec::new(),
-        })
-        .collect();
     let bar = bar("walking", args.steps as usize);
     let size = [args.view.width, args.view.height];
     let mut here = Stage::new(&gpu, &tracer, &start, size)?.with_lamp_near(args.view.lamp_near);
+    let mut walkers = Vec::new();
+    for spec in &lights {
+        let light = spec.to_light(here.lamp_near)?;
+        for way in &ways {
+            walkers.push(Walker::new(*spec, *way, FittedMaps::new(&here, &light, &way.options)?.ok()));
+        }
+    }
     for step in 0..args.steps {
         let camera = moved(&camera, pace * f64::from(step + 1), args.turn * f64::from(step + 1));
         let view = camera.view(args.view.aspect(), start.near(), start.far())?;
         let next = Stage::new(&gpu, &tracer, &view, size)?.with_lamp_near(args.view.lamp_near);
         // What the camera saw, about the origin that the next map's matrix takes positions from.
         let again = Surfaces::draw(&gpu, &next.geometry, &here.view, size)?;
-        for (spec, flickers) in lights.iter().zip(flickers.chunks_mut(options.len())) {
+        for (spec, walkers) in lights.iter().zip(walkers.chunks_mut(ways.len())) {
             let light = here.light(*spec)?;
-            for (options, flicker) in options.iter().zip(flickers) {
-                flicker.steps.push(compare(&here, &next, &again, &light, options)?);
+            for walker in walkers {
+                walker.step(&here, &next, &again, &light)?;
             }
         }
         here = next;
@@ -120,21 +145,94 @@ pub fn walk(args: &WalkArgs) -> Result<()> {
     }
     bar.finish_and_clear();
 
+    let flickers: Vec<Flicker> = walkers.into_iter().map(Walker::flicker).collect();
     say(&summary(&flickers).to_string());
     report::write(&flickers, &out.join("walk.json"))?;
     say(&format!("wrote walk.json to {}", out.display()));
     Ok(())
 }
 
+/// A way to come by a map in each step.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    options: Options,
+    /// From the one of the step before.
+    warm: bool,
+}
+
+/// As the options say, and from the map of the step before too where that makes a difference.
+fn ways(options: &[Options]) -> Vec<Way> {
+    let of = |&options: &Options| {
+        let is_searched = options.technique.is_searched();
+        [false, true].into_iter().filter(move |&warm| is_searched || !warm).map(move |warm| Way { options, warm })
+    };
+    options.iter().flat_map(of).collect()
+}
+
+/// One light through one kind of map, on its way.
+struct Walker {
+    light: LightSpec,
+    way: Way,
+    /// The maps where the camera is, if there are any.
+    maps: Option<FittedMaps>,
+    times: Vec<Duration>,
+    switches: usize,
+    steps: Vec<Option<Step>>,
+}
+
+impl Walker {
+    fn new(light: LightSpec, way: Way, maps: Option<FittedMaps>) -> Self {
+        Self { light, way, maps, times: Vec::new(), switches: 0, steps: Vec::new() }
+    }
+
+    /// Goes from here to the next camera.
+    fn step(&mut self, here: &Stage<'_>, next: &Stage<'_>, again: &Surfaces, light: &StageLight) -> Result<()> {
+        let Way { options, warm } = &self.way;
+        let before = self.maps.as_ref().filter(|_| *warm);
+        let next_maps = FittedMaps::after(before, next, &light.light, options)?.ok();
+        if let Some(maps) = &next_maps {
+            let settings = options.settings(next)?;
+            self.times.push(median_time(FITS, || maps.fit_again(before, next, &settings)));
+            self.switches += usize::from(maps.switched());
+        }
+        self.steps.push(match (&self.maps, &next_maps) {
+            (Some(these), Some(those)) => Some(compare((here, these), (next, those), again, light, options)?),
+            _ => None,
+        });
+        self.maps = next_maps;
+        Ok(())
+    }
+
+    fn flicker(mut self) -> Flicker {
+        self.times.sort_unstable();
+        Flicker {
+            light: self.light.to_string(),
+            technique: self.way.options.technique,
+            map_size: self.way.options.map_size,
+            slicing: self.way.options.slicing,
+            name: self.way.options.name(),
+            warm: self.way.warm,
+            fit_us: self.times.get(self.times.len() / 2).map_or(0.0, |time| time.as_secs_f64() * 1e6),
+            switches: self.switches,
+            steps: self.steps,
+        }
+    }
+}
+
 fn summary(flickers: &[Flicker]) -> Table {
-    let mut table = table::new(["light", "map", "change in a step", "at worst", "steps without a map"], 2..5);
+    let header =
+        ["light", "map", "change in a step", "over a cut", "at worst", "steps without a map", "fit", "switches"];
+    let mut table = table::new(header, 2..header.len());
     for flicker in flickers {
         table.add_row([
             flicker.light.clone(),
-            format!("{} {}", flicker.technique, flicker.map_size),
+            format!("{}{}", flicker.name, if flicker.warm { ", warm" } else { "" }),
             percent(flicker.mean()),
+            if flicker.slicing.is_some() { percent(flicker.mean_over_cuts()) } else { "-".into() },
             percent(flicker.worst()),
             flicker.steps.iter().filter(|step| step.is_none()).count().to_string(),
+            format!("{:.1} µs", flicker.fit_us),
+            if flicker.warm { flicker.switches.to_string() } else { "-".into() },
         ]);
     }
     table
@@ -155,16 +253,14 @@ fn moved(start: &Camera, ahead: f64, degrees: f64) -> Camera {
     Camera { eye: start.eye + ahead * (start.forward + 0.5 * right), forward: turn * start.forward, ..*start }
 }
 
-/// Counts the pixels seen from here that change when the map fitted for the next camera takes the place of this one's.
+/// Counts the pixels seen from here that change when the maps fitted for the next camera take the place of these.
 fn compare(
-    here: &Stage<'_>,
-    next: &Stage<'_>,
+    (here, these_maps): (&Stage<'_>, &FittedMaps),
+    (next, next_maps): (&Stage<'_>, &FittedMaps),
     again: &Surfaces,
     light: &StageLight,
     options: &Options,
-) -> Result<Option<Step>> {
-    let maps = (FittedMaps::new(here, &light.light, options)?, FittedMaps::new(next, &light.light, options)?);
-    let (Ok(these_maps), Ok(next_maps)) = maps else { return Ok(None) };
+) -> Result<Step> {
     let before = shadow_test(here.gpu, &here.surfaces, &these_maps.draw(here)?, options.filter)?.lit;
     let after = shadow_test(here.gpu, again, &next_maps.draw(next)?, options.filter)?.lit;
     let planes = next.view.planes();
@@ -175,8 +271,12 @@ fn compare(
         let same_surface = here.surfaces.triangles[i] == again.triangles[i];
         if same_surface && planes.iter().all(|plane| plane.at(surface.point) >= 0.0) {
             step.compared += 1;
-            step.changed += usize::from((before[i] >= 0.5) != (after[i] >= 0.5));
+            if (before[i] >= 0.5) != (after[i] >= 0.5) {
+                let part = |maps: &FittedMaps| maps.split.part_of(surface.point);
+                step.changed += 1;
+                step.over_a_cut += usize::from(part(these_maps) != part(next_maps));
+            }
         }
     }
-    Ok(Some(step))
+    Ok(step)
 }

@@ -99,7 +99,14 @@ fn along_the_light_a_warp_is_no_warp() {
     let stage = Stage::new(&gpu, &tracer, &view, IMAGE).expect("drawn");
     let light = stage.light(LightSpec::Sun { direction_to_light: -view.forward() }).expect("sound");
     let uniform = run_one(&stage, &light, Technique::Uniform);
-    for technique in [Technique::Psm, Technique::PsmTight, Technique::PsmUnshifted] {
+    let warps = [
+        Technique::Psm,
+        Technique::PsmTight,
+        Technique::PsmUnshifted,
+        Technique::LightSpace,
+        Technique::Trapezoidal,
+    ];
+    for technique in warps {
         let warped = run_one(&stage, &light, technique);
         let (a, b) = (uniform.verdict.aliasing.expect("compared"), warped.verdict.aliasing.expect("compared"));
         for (a, b) in [(a.worst, b.worst), (a.median, b.median), (a.p95, b.p95)] {
@@ -273,6 +280,59 @@ fn a_warp_pays_once_the_view_is_narrowed() {
     };
     let [wide, narrow] = [false, true].map(|narrow| median(narrow, Technique::Psm));
     assert!(2.0 * narrow < wide, "{wide} and narrowed {narrow}");
+}
+
+/// A near plane in the air, and moved to what is seen: the best matrix is better than every closed form where aliasing is
+/// predicted, and has few wrong pixels wherever the prediction is about what is seen.
+#[test]
+fn the_best_matrix_predicts_the_least_and_has_few_wrong_pixels() {
+    let scene = scene::load(Path::new("street")).expect("built in");
+    let camera = scene.camera.expect("it has one");
+    let view = camera.view(1.6, camera.near.expect("it has one"), camera.far.expect("it has one")).expect("sound");
+    let (gpu, tracer) = (gpu(), Tracer::new(&scene.mesh).expect("it has triangles"));
+    for (spec, narrow) in scene.lights.iter().flat_map(|spec| [(spec, false), (spec, true)]) {
+        let stage = Stage::new(&gpu, &tracer, &view, IMAGE).expect("drawn");
+        let stage = if narrow { stage.narrowed().expect("read back") } else { stage };
+        let light = stage.light(*spec).expect("sound");
+        let runs = Technique::WARPS.map(|technique| (technique, run_one(&stage, &light, technique)));
+        let predicted = |run: &MapRun| run.prediction.predicted.expect("no paraboloid");
+        let of = |wanted| &runs.iter().find(|(technique, _)| *technique == wanted).expect("run").1;
+        let (best, case) = (of(Technique::Best), format!("{spec}, narrowed: {narrow}"));
+        for (technique, run) in &runs {
+            // What is seen of R is no coarser than its vertices under a sun, but for the f32 of its points.
+            let worst = run.verdict.aliasing.expect("compared").worst;
+            assert!(worst <= 1.0001 * predicted(run), "{case}, {technique}: {worst}, {}", predicted(run));
+            assert!(predicted(best) <= predicted(run), "{case}, {technique}: {}", predicted(run));
+            assert_eq!(run.verdict.counts.missing, 0, "{case}, {technique}");
+        }
+        let wrong = |run: &MapRun| run.verdict.counts.wrong();
+        for technique in [Technique::Uniform, Technique::Psm] {
+            assert!(3 * wrong(best) < 2 * wrong(of(technique)), "{case}, {technique}: {}", wrong(best));
+        }
+    }
+}
+
+/// Without a bias nothing is left but edges, and they go with the texels.
+#[test]
+fn wrong_pixels_of_virtual_samples_go_with_predicted_aliasing() {
+    let scene = scene::load(Path::new("street")).expect("built in");
+    let camera = scene.camera.expect("it has one");
+    let view = camera.view(1.6, camera.near.expect("it has one"), camera.far.expect("it has one")).expect("sound");
+    let (gpu, tracer) = (gpu(), Tracer::new(&scene.mesh).expect("it has triangles"));
+    let stage = Stage::new(&gpu, &tracer, &view, IMAGE).and_then(Stage::narrowed).expect("drawn");
+    let light = stage.light(scene.lights[0]).expect("sound");
+    let [uniform, psm, best] = [Technique::Uniform, Technique::Psm, Technique::Best].map(|technique| {
+        let options = Options { filter: Filter::Virtual(2), ..Options::new(technique, 512) };
+        run(&stage, &light, &options).expect("drawn").unwrap_or_else(|none| panic!("{none}"))
+    });
+    for (coarse, fine) in [(&uniform, &psm), (&psm, &best)] {
+        let [a, b] = [coarse, fine].map(|run| run.prediction.predicted);
+        assert!(a > b, "{a:?} {b:?}");
+        let [a, b] = [coarse, fine].map(|run| run.verdict.counts.wrong());
+        assert!(a > b, "{a} and {b} pixels wrong");
+    }
+    let counts = best.verdict.counts;
+    assert!(counts.fraction(counts.faults()) < 0.001, "{counts:?}");
 }
 
 /// Points as single texels let light through; as their discs they do not, and cast no more than they should.

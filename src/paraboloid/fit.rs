@@ -88,7 +88,7 @@ impl Focus<'_> {
         let around = |axis: DVec3| {
             // A frame that no camera moves.
             let (x_axis, y_axis) = frame::across(axis, DVec3::NEG_Z, DVec3::Y);
-            let (view, light, settings) = (*self.view(), *self.light(), *settings);
+            let (view, light, settings) = (*self.view(), *self.light(), settings.squared());
             let near = light.near();
             Paraboloid { position, x_axis, y_axis, axis, near, far, view, light, settings }.padded(body.positions())
         };

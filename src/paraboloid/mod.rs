@@ -99,7 +99,7 @@ impl Paraboloid {
     /// of q must be the same all around.
     #[must_use]
     pub fn clip_scale(&self) -> Vec2 {
-        let inner = self.settings.inner() as f32;
+        let inner = self.settings.inner().x as f32;
         Vec2::new(inner, if self.settings.clip().y == YAxis::Up { inner } else { -inner })
     }
 
@@ -107,7 +107,7 @@ impl Paraboloid {
     /// that make of depth what the depth buffer holds.
     #[must_use]
     pub fn texture_scale(&self) -> Vec4 {
-        let (clip, half) = (self.settings.clip(), 0.5 * self.settings.inner() as f32);
+        let (clip, half) = (self.settings.clip(), 0.5 * self.settings.inner().x as f32);
         // Only OpenGL stores the bottom row first while y points up.
         let up = (clip.y, clip.texture_origin) == (YAxis::Up, TextureOrigin::BottomLeft);
         let (factor, summand) = if clip.depth.is_reversed() { (-1.0, 1.0) } else { (1.0, 0.0) };
@@ -223,7 +223,8 @@ impl Paraboloid {
         self.position
     }
 
-    /// The settings the map was fitted with. The warp and its shift mean nothing to a paraboloid map.
+    /// The settings the map was fitted with. The warp and its shift mean nothing to a paraboloid map, and it is square: of
+    /// settings that are not, only the shorter side is left ([`Settings::map_size`]).
     #[must_use]
     pub const fn settings(&self) -> &Settings {
         &self.settings
@@ -255,7 +256,7 @@ impl Paraboloid {
 
     /// Texels for a step of 1 in u or v.
     fn texels_per_unit(&self) -> f64 {
-        0.5 * f64::from(self.settings.map_size()) * self.settings.inner()
+        0.5 * f64::from(self.settings.map_size()) * self.settings.inner().x
     }
 
     /// A point in the frame of the map, the light in the middle.

@@ -20,9 +20,11 @@ impl Budget {
     /// The smallest map that is worth a pass, in texels a side.
     pub const SMALLEST_MAP: u32 = 64;
 
-    /// A budget from how maps are fitted: no map is larger than that of the settings, none is warped where the settings
-    /// say [`Warp::Uniform`](crate::Warp::Uniform), and clip space and origin are the settings' own. Their back-shift is
-    /// chosen by the plan, and their border is as wide as the filter needs.
+    /// A budget from how maps are fitted: all maps are square and no larger than that of the settings, or than its shorter
+    /// side ([`Settings::map_size`]); none has another warp than theirs, and none has one where they say
+    /// [`Warp::Uniform`](crate::Warp::Uniform) or [`Warp::Stable`](crate::Warp::Stable); clip space and origin are the
+    /// settings' own. The back-shift of [`Warp::Perspective`](crate::Warp::Perspective) is chosen by the plan, and the border
+    /// is as wide as the filter needs.
     ///
     /// Until told otherwise, depth has 24 bits, the filter is the sampler's own, a texel as large as a pixel is fine
     /// enough, and all maps together may have as many texels as they need.

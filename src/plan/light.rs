@@ -147,7 +147,7 @@ impl Planner<'_> {
             (size, aliasing) = (size / 2, 2.0 * aliasing);
         }
         // A uniform map that is fine enough stands for a warped one as well, which may be so at half the size.
-        let can_warp = largest.kind == Kind::Uniform && self.budget.settings().warp() != Warp::Uniform;
+        let can_warp = largest.kind == Kind::Uniform && self.budget.settings().warp().bends();
         if can_warp && largest.aliasing <= self.budget.aliasing() && size / 2 >= Budget::SMALLEST_MAP {
             size /= 2;
         }
@@ -185,36 +185,48 @@ impl Planner<'_> {
         size: u32,
         reasons: &mut Vec<Reason>,
     ) -> Found {
-        let fit = |warp, shift| {
+        let fit = |warp: Warp, shift| {
             let map = match focus.fit(&self.settings(size).with_warp(warp).with_shift(shift)) {
                 Outcome::Map(map) => map,
                 Outcome::Empty(empty) => return Err(empty),
                 Outcome::Surrounded(_) => return Ok(None),
             };
-            let kind = if warp == Warp::Uniform { Kind::Uniform } else { Kind::Perspective };
+            let kind = if warp.bends() { Kind::Warped } else { Kind::Uniform };
             Ok(Some(Candidate::new(kind, std::vec![Projection::Frustum(map)], points)))
         };
-        let Some(uniform) = fit(Warp::Uniform, Shift::None)? else { return Ok(None) };
+        let (wanted, shift) = (self.budget.settings().warp(), self.budget.settings().shift());
+        let straight = if wanted.bends() { Warp::Uniform } else { wanted };
+        let Some(uniform) = fit(straight, Shift::None)? else { return Ok(None) };
         if uniform.aliasing <= self.budget.aliasing() {
             reasons.push(Reason::UniformEnough);
             return Ok(Some(uniform));
         }
-        if self.budget.settings().warp() == Warp::Uniform {
+        if !wanted.bends() {
             reasons.push(Reason::NoWarpWanted);
             return Ok(Some(uniform));
         }
-        let unshifted = fit(Warp::Perspective, Shift::None)?;
-        let shifted = fit(Warp::Perspective, Shift::Back(Form::Paper))?;
         // A light that a frustum serves without a warp it serves with one.
-        let (Some(unshifted), Some(shifted)) = (unshifted, shifted) else { return Ok(Some(uniform)) };
-        let times = shifted.times(&unshifted);
-        let (warped, why) = match times * SAME < 1.0 {
-            true => (shifted, Reason::ShiftFiner(times.recip())),
-            false => (unshifted, Reason::NoShiftFiner(times)),
+        let (warped, why) = match wanted {
+            Warp::Perspective => {
+                let unshifted = fit(wanted, Shift::None)?;
+                let shifted = fit(wanted, Shift::Back(Form::Paper))?;
+                let (Some(unshifted), Some(shifted)) = (unshifted, shifted) else { return Ok(Some(uniform)) };
+                let times = shifted.times(&unshifted);
+                if times * SAME < 1.0 {
+                    (shifted, Some(Reason::ShiftFiner(times.recip())))
+                } else {
+                    (unshifted, Some(Reason::NoShiftFiner(times)))
+                }
+            }
+            _ => match fit(wanted, shift)? {
+                Some(warped) => (warped, None),
+                None => return Ok(Some(uniform)),
+            },
         };
         let (worst, times) = (warped.aliasing / uniform.aliasing, warped.times(&uniform));
         Ok(Some(if worst <= 1.0 && times * WORTH < 1.0 {
-            reasons.extend([Reason::WarpFiner(times), why]);
+            reasons.push(Reason::WarpFiner(times));
+            reasons.extend(why);
             warped
         } else {
             reasons.push(Reason::WarpNoFiner(worst.max(times)));

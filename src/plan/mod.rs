@@ -152,8 +152,8 @@ pub enum Kind {
     Nothing,
     /// One uniform map.
     Uniform,
-    /// One map warped by the camera's perspective.
-    Perspective,
+    /// One map with the warp of the settings.
+    Warped,
     /// One paraboloid.
     Paraboloid,
     /// Two paraboloids.

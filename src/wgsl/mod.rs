@@ -5,8 +5,10 @@
 //! with `shadowfit_`.
 
 mod frustum;
+mod slices;
 
 pub use frustum::{BETWEEN_LAYERS, FILTERS, MAP, MAP_ARRAY, PROJECT, VIRTUAL_SAMPLES};
+pub use slices::SLICES;
 
 /// Paraboloid maps, drawn and read, see [`Paraboloid`](crate::Paraboloid). `ShadowfitParaboloidVertex` can be what a vertex shader
 /// gives and a fragment shader takes, as it is; the fragment shader writes the depth that it is given.
@@ -25,13 +27,13 @@ pub const PARABOLOID: &str = include_str!("paraboloid.wgsl");
 
 /// Discs and balls as quads in a shadow map, each of its [`covering`](crate::Splat::covering) size and of its own depth.
 ///
-/// - `shadowfit_disc_splat(shadow_from_world, centre, normal, radius, map_size, corner)`: the clip position of a corner of
+/// - `shadowfit_disc_splat(shadow_from_world, centre, normal, radius, map_sides, corner)`: the clip position of a corner of
 ///   a disc's rectangle, see [`Map::disc_splat`](crate::Map::disc_splat). `shadow_from_world` is
 ///   [`Map::matrix`](crate::Map::matrix), `centre`, a unit `normal` and `radius` are in the space that it takes positions
-///   in, `map_size` is the map's size as an f32, and `corner` has coordinates −1 or 1.
-/// - `shadowfit_ball_splat(shadow_from_world, centre, radius, map_size, corner)`: the same of a ball, see
+///   in, `map_sides` are the map's width and height as f32s, and `corner` has coordinates −1 or 1.
+/// - `shadowfit_ball_splat(shadow_from_world, centre, radius, map_sides, corner)`: the same of a ball, see
 ///   [`Map::splat`](crate::Map::splat).
-/// - `shadowfit_splat_corner(shadow_from_world, centre, normal, radius, map_size, corner)`: the same corner as
+/// - `shadowfit_splat_corner(shadow_from_world, centre, normal, radius, map_sides, corner)`: the same corner as
 ///   `struct shadowfit_SplatCorner { clip: vec4<f32>, offset: vec2<f32> }`, of a ball with a normal of zero. A fragment
 ///   shader that gets `offset`, interpolated, and discards where it is longer than 1 draws discs and not rectangles, see
 ///   [`Splat`](crate::Splat).

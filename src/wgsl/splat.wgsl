@@ -17,10 +17,10 @@ fn shadowfit_disc_splat(
     centre: vec3<f32>,
     normal: vec3<f32>,
     radius: f32,
-    map_size: f32,
+    map_sides: vec2<f32>,
     corner: vec2<f32>,
 ) -> vec4<f32> {
-    return shadowfit_splat_corner(shadow_from_world, centre, normal, radius, map_size, corner).clip;
+    return shadowfit_splat_corner(shadow_from_world, centre, normal, radius, map_sides, corner).clip;
 }
 
 // A ball. Its depth is its centre's.
@@ -28,10 +28,10 @@ fn shadowfit_ball_splat(
     shadow_from_world: mat4x4<f32>,
     centre: vec3<f32>,
     radius: f32,
-    map_size: f32,
+    map_sides: vec2<f32>,
     corner: vec2<f32>,
 ) -> vec4<f32> {
-    return shadowfit_disc_splat(shadow_from_world, centre, vec3(0.0), radius, map_size, corner);
+    return shadowfit_disc_splat(shadow_from_world, centre, vec3(0.0), radius, map_sides, corner);
 }
 
 // A corner of a rectangle.
@@ -49,7 +49,7 @@ fn shadowfit_splat_corner(
     centre: vec3<f32>,
     normal: vec3<f32>,
     radius: f32,
-    map_size: f32,
+    map_sides: vec2<f32>,
     corner: vec2<f32>,
 ) -> shadowfit_SplatCorner {
     let rows = transpose(shadow_from_world);
@@ -73,9 +73,9 @@ fn shadowfit_splat_corner(
     let y_span = shadowfit_splat_span(place.y, y_across, w_across);
     let z_span = shadowfit_splat_span(place.z, shadowfit_splat_part_across(z, normal), w_across);
     let half = vec2(x_span.y, y_span.y);
-    // Half a texel is 1 / map_size of clip space; the rest is for the grid that rasterisers move corners to.
-    let least = (1.0 + 1.0 / 128.0) / map_size;
-    let grown = max(half, vec2(least));
+    // Half a texel is 1 / map_sides of clip space; the rest is for the grid that rasterisers move corners to.
+    let least = (1.0 + 1.0 / 128.0) / map_sides;
+    let grown = max(half, least);
     let from_middle = corner * grown;
     let at = vec2(x_span.x, y_span.x) + from_middle;
 
@@ -91,7 +91,7 @@ fn shadowfit_splat_corner(
 
     // As tall and wide as the rectangle, and as lopsided as x and y change together.
     let mixed = dot(x_across, w_across) * dot(y_across, w_across) / (rest * rest) + dot(x_across, y_across) / rest;
-    let offset = shadowfit_splat_offset(half / least, mixed / (least * least), from_middle / least);
+    let offset = shadowfit_splat_offset(half / least, mixed / (least.x * least.y), from_middle / least);
     return shadowfit_SplatCorner(vec4(at, depth, 1.0), offset);
 }
 

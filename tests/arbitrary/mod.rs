@@ -30,7 +30,7 @@ pub(crate) use lights::LightParams;
 pub(crate) use params::{Case, Similarity, plane};
 pub(crate) use primitive::{number_bits, rotation};
 pub(crate) use scenes::{SceneParams, SceneStore};
-pub(crate) use together::{Numbers, Together, points_of, settings};
+pub(crate) use together::{FORMS, Numbers, Together, WARPS, following, points_of, settings, sides};
 pub(crate) use views::{Frame, Pose, ViewParams, clip_space};
 
 use lights::light_place;

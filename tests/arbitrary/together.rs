@@ -1,22 +1,53 @@
 //! A case brought together: what the crate makes of its numbers, settings for its fit, and points to try the map on.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use proptest::prelude::*;
-use shadowfit::{Body, Focus, Form, Light, Origin, Plane, Settings, Shift, View, Warp};
+use shadowfit::{Body, Effort, Focus, Form, Light, Origin, Plane, Settings, Shift, View, Warp};
 
 use super::{Case, SceneStore, clip_space};
 
+/// The warps with a closed form, and none.
+pub(crate) const FORMS: [Warp; 4] = [Warp::Uniform, Warp::Perspective, Warp::LightSpace, Warp::Trapezoidal];
+
+/// All of them.
+pub(crate) const WARPS: [Warp; 7] = [
+    Warp::Uniform,
+    Warp::Stable,
+    Warp::Perspective,
+    Warp::LightSpace,
+    Warp::Trapezoidal,
+    Warp::Best(Effort::Rough),
+    Warp::Best(Effort::Good),
+];
+
 /// Settings of every kind.
 pub(crate) fn settings() -> impl Strategy<Value = Settings> {
-    let warp = prop_oneof![Just(Warp::Uniform), Just(Warp::Perspective)];
+    let warp = prop::sample::select(&WARPS);
     let shift = prop_oneof![Just(Shift::None), Just(Shift::Back(Form::Paper)), Just(Shift::Back(Form::Tight))];
     let origin = prop_oneof![Just(Origin::World), Just(Origin::Eye)];
-    let size = prop::sample::select(vec![4, 512, 2048, 16384]);
-    (warp, shift, origin, clip_space(), size, 0..=1_u32).prop_map(|(warp, shift, origin, clip, size, border)| {
-        let settings = Settings::new(size, 1080).and_then(|settings| settings.with_border(border));
-        let settings = settings.expect("legal sizes");
-        settings.with_warp(warp).with_shift(shift).with_clip(clip).with_origin(origin)
-    })
+    let square = [4, 512, 2048, 16384].map(|size| (size, size));
+    let other = [(4, 4096), (16384, 64), (2048, 512), (1000, 3000)];
+    let sides = prop::sample::select([square, other].concat());
+    (warp, shift, origin, clip_space(), sides, 0..=1_u32).prop_map(
+        |(warp, shift, origin, clip, (width, height), border)| {
+            let settings = Settings::new(2048, 1080).and_then(|settings| settings.with_map_sides(width, height));
+            let settings = settings.and_then(|settings| settings.with_border(border));
+            let settings = settings.expect("legal sizes");
+            settings.with_warp(warp).with_shift(shift).with_clip(clip).with_origin(origin)
+        },
+    )
+}
+
+/// Texels of a map across and down.
+pub(crate) fn sides(settings: &Settings) -> DVec2 {
+    let (width, height) = settings.map_sides();
+    DVec2::new(width.into(), height.into())
+}
+
+/// Settings of maps that follow the view continuously: no stable ones, which stay where they are, and none that a search
+/// may find elsewhere from one view to the next.
+pub(crate) fn following() -> impl Strategy<Value = Settings> {
+    settings().prop_filter("follows the view", |settings| FORMS.contains(&settings.warp()))
 }
 
 /// A case brought together.

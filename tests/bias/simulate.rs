@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use shadowfit::{ClipSpace, DepthBias, DepthFormat, DepthRange, Light, Map, Origin, TextureOrigin, View, YAxis};
 
 use super::FORMATS;
-use super::arbitrary::Numbers;
+use super::arbitrary::{Numbers, sides};
 
 /// What f32 makes of a row, relative to the sum of its terms' magnitudes.
 pub(crate) const UNITS: f64 = 8.0 / 16_777_216.0;
@@ -19,7 +19,8 @@ pub(crate) struct Card<'a> {
     pub(crate) origin: DVec3,
     /// World to texture space, exact.
     exact: DMat4,
-    size: f64,
+    /// Texels across and down.
+    sides: DVec2,
     reversed: bool,
 }
 
@@ -29,20 +30,20 @@ impl<'a> Card<'a> {
             Origin::World => DVec3::ZERO,
             Origin::Eye => view.eye(),
         };
-        let size = map.settings().map_size().into();
+        let sides = sides(map.settings());
         let reversed = map.settings().clip().depth.is_reversed();
-        Self { map, origin, exact: map.texture_from_world(), size, reversed }
+        Self { map, origin, exact: map.texture_from_world(), sides, reversed }
     }
 
     /// Where a point falls, in texels, and its depth; exact.
     pub(crate) fn place(&self, point: DVec3) -> DVec3 {
-        self.exact.project_point3(point) * DVec3::new(self.size, self.size, 1.0)
+        self.exact.project_point3(point) * self.sides.extend(1.0)
     }
 
     /// The same in f32, by a matrix from positions to texture space.
     pub(crate) fn place_in_f32(&self, texture: &Mat4, point: DVec3) -> DVec3 {
         let at = *texture * (point - self.origin).as_vec3().extend(1.0);
-        (at.xyz() / at.w).as_dvec3() * DVec3::new(self.size, self.size, 1.0)
+        (at.xyz() / at.w).as_dvec3() * self.sides.extend(1.0)
     }
 
     /// The same of a caster's corner, by way of clip space, as a driver takes it to the grid of a 256th of a texel, up or
@@ -57,18 +58,18 @@ impl<'a> Card<'a> {
             DepthRange::ZeroToOne | DepthRange::ZeroToOneReversed => at.z,
             DepthRange::NegativeOneToOne | DepthRange::NegativeOneToOneReversed => 0.5 + 0.5 * at.z,
         };
-        let snapped = |place: f32, up: bool| {
-            let grid = f64::from(place) * self.size * 256.0;
+        let snapped = |place: f32, side: f64, up: bool| {
+            let grid = f64::from(place) * side * 256.0;
             (if up { grid.ceil() } else { grid.floor() }) / 256.0
         };
-        DVec3::new(snapped(x, up[0]), snapped(y, up[1]), z.into())
+        DVec3::new(snapped(x, self.sides.x, up[0]), snapped(y, self.sides.y, up[1]), z.into())
     }
 
     /// The point on the plane through `point` across `normal` that falls on a place.
     fn on_plane(&self, point: DVec3, normal: DVec3, place: DVec2) -> Option<DVec3> {
         let rows = self.exact.transpose();
-        let column = rows.x_axis - rows.w_axis * (place.x / self.size);
-        let row = rows.y_axis - rows.w_axis * (place.y / self.size);
+        let column = rows.x_axis - rows.w_axis * (place.x / self.sides.x);
+        let row = rows.y_axis - rows.w_axis * (place.y / self.sides.y);
         let (x, y) = (column.xyz(), row.xyz());
         let volume = x.dot(y.cross(normal));
         let off = DVec2::new(column.dot(point.extend(1.0)), row.dot(point.extend(1.0)));
@@ -86,7 +87,7 @@ impl<'a> Card<'a> {
         };
         let [x, y, z, w_rounding] = [rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis].map(of);
         let left = 1.0 - w_rounding;
-        let across = 0.5 * self.size * (x.max(y) + 3.0 * w_rounding) / left;
+        let across = (0.5 * self.sides * (DVec2::new(x, y) + 3.0 * w_rounding)).max_element() / left;
         let depth = (z + w_rounding) / left;
         w > 0.0 && w_rounding < 0.5 && across <= places && depth <= self.map.depth_rounding(point)
     }

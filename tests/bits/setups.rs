@@ -5,7 +5,7 @@
 
 use shadowfit::glam::{DMat4, DVec3, DVec4, Vec3};
 use shadowfit::{
-    Aabb, ClipSpace, ConvexScene, CubeFace, DepthRange, Form, Light, Origin, Plane, Scene, Settings, Shift,
+    Aabb, ClipSpace, ConvexScene, CubeFace, DepthRange, Effort, Form, Light, Origin, Plane, Scene, Settings, Shift,
     TextureOrigin, View, Warp, YAxis,
 };
 
@@ -218,11 +218,21 @@ fn settings(number: usize) -> Settings {
     let settings = Settings::new(size, height).and_then(|settings| settings.with_border([1, 0, 4][number / 3 % 3]));
     settings
         .expect("settings")
-        .with_warp(if number % 3 == 2 { Warp::Uniform } else { Warp::Perspective })
+        .with_warp(WARPS[number % WARPS.len()])
         .with_shift(shifts[number / 5 % shifts.len()])
         .with_clip(clips[number % clips.len()])
         .with_origin(if number % 5 > 2 { Origin::Eye } else { Origin::World })
 }
+
+const WARPS: [Warp; 7] = [
+    Warp::Perspective,
+    Warp::Best(Effort::Good),
+    Warp::Uniform,
+    Warp::LightSpace,
+    Warp::Stable,
+    Warp::Trapezoidal,
+    Warp::Best(Effort::Thorough),
+];
 
 /// All set-ups: every light in every view, and two views of them in every other place.
 pub(crate) fn setups() -> Vec<SetUp> {

@@ -2,12 +2,13 @@
 
 use glam::{DMat4, DVec3, Vec3, Vec4};
 use shadowfit::{
-    Aabb, ClipSpace, ConvexScene, CubeFace, DepthFormat, DepthRange, Filter, Focus, Form, InputError, Light, Map,
-    Offset, Origin, Outcome, Paraboloid, Plane, Scene, Settings, Shift, TangentPlane, TextureOrigin, View, Warp,
-    YAxis,
+    Aabb, ClipSpace, ConvexScene, CubeFace, Cuts, DepthFormat, DepthRange, Filter, Focus, Form, InputError, Layout,
+    Light, Map, Offset, Origin, Outcome, Paraboloid, Plane, Scene, Settings, Shift, Slices, Split, TangentPlane,
+    TextureOrigin, View, Warp, YAxis,
 };
 
 use super::results::exercise;
+use crate::arbitrary::WARPS;
 
 /// Numbers from bytes, zeros where there are no more.
 struct Bits<'a>(&'a [u8]);
@@ -125,11 +126,15 @@ impl Bits<'_> {
 
     fn settings(&mut self) -> Result<Settings, InputError> {
         let settings = Settings::new(self.whole(), self.whole())?;
-        let settings = if self.below(2) == 0 { settings.with_map_size(self.whole())? } else { settings };
+        let settings = match self.below(3) {
+            0 => settings.with_map_size(self.whole())?,
+            1 => settings.with_map_sides(self.whole(), self.whole())?,
+            _ => settings,
+        };
         let shifts = [Shift::None, Shift::Back(Form::Paper), Shift::Back(Form::Tight)];
         Ok(settings
             .with_border(self.whole())?
-            .with_warp([Warp::Uniform, Warp::Perspective][self.below(2)])
+            .with_warp(WARPS[self.below(WARPS.len())])
             .with_shift(shifts[self.below(3)])
             .with_clip(self.clip())
             .with_origin([Origin::World, Origin::Eye][self.below(2)]))
@@ -177,6 +182,14 @@ pub(crate) fn take_any_bits(bytes: &[u8]) {
     }
     #[cfg(feature = "std")]
     planned(&mut bits, &view, &light, &settings);
+    if let Ok(scene) = Scene::from_box(bits.triple(), bits.triple()) {
+        sliced(&mut bits, &view, &light, &scene, &settings);
+    }
+}
+
+/// Asserts that a view is cut at any bytes, or refused with the name of an argument.
+pub(crate) fn cut_at_any_bits(bytes: &[u8], view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) {
+    sliced(&mut Bits(bytes), view, light, scene, settings);
 }
 
 fn with_scene(
@@ -267,6 +280,30 @@ fn asked_paraboloid(bits: &mut Bits<'_>, map: &Paraboloid) {
     if let Ok(bias) = map.bias(FORMATS[bits.below(4)], bits.number()) {
         assert!(bias.slope.is_finite() && bias.receiver.is_finite(), "{bias:?}");
         std::hint::black_box((map.bias_distance(point, normal, &bias), map.distance_slopes(point, normal)));
+    }
+}
+
+/// Cuts a view anywhere, and asks its slices about any depth.
+fn sliced(bits: &mut Bits<'_>, view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) {
+    let split = [Split::Uniform, Split::Logarithmic, Split::Blended(bits.number())][bits.below(3)];
+    let (count, depths) = (bits.below(10), bits.list(9, Bits::number));
+    let cuts = [Cuts::Visible { count, split }, Cuts::View { count, split }, Cuts::At(&depths)][bits.below(3)];
+    let slices = match Slices::new(view, light, scene, cuts, bits.number()) {
+        Ok(slices) => slices,
+        Err(error) => {
+            assert!(["count", "overlap", "split", "view", "cuts"].contains(&error.field), "{error}");
+            return;
+        }
+    };
+    let depth = bits.number();
+    assert!(slices.index_at(depth) < slices.len() && (0.0..=1.0).contains(&slices.blend_at(depth)), "{depth}");
+    let maps = slices.fit(settings);
+    let report = maps.report();
+    assert!(!report.aliasing.is_nan() && !report.texel.is_nan(), "{report:?}");
+    for layout in [Layout::Array, Layout::Atlas] {
+        let uniform = maps.uniform(layout, |_| None);
+        let floats = uniform.texture_from_origin.as_flattened().iter().chain(uniform.inner.as_flattened());
+        assert!(floats.chain(&uniform.far).chain(&uniform.blend).all(|float| float.is_finite()), "{uniform:?}");
     }
 }
 

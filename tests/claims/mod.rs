@@ -5,7 +5,7 @@
 //! - `results`: nothing that the crate says of a fit is NaN.
 //! - `rays`, `scaling`: where a map puts things in f64, and what powers of two do to it.
 //! - `single_precision`: what f32 makes of a map.
-//! - `paraboloid`, `virtual_samples`, `town` and `planner`: the maps, tests and plans of those names.
+//! - `paraboloid`, `slices`, `virtual_samples`, `town` and `planner`: the maps, tests and plans of those names.
 //! - `targets`: all claims of a fuzz target, from its bytes.
 
 #![allow(dead_code, unused_imports, reason = "every target that takes this module in uses a part of it")]
@@ -20,6 +20,7 @@ pub(crate) mod rays;
 pub(crate) mod results;
 pub(crate) mod scaling;
 pub(crate) mod single_precision;
+pub(crate) mod slices;
 pub(crate) mod targets;
 #[cfg(feature = "std")]
 pub(crate) mod town;

@@ -111,7 +111,7 @@ pub(crate) fn warps_to_gain(town: &LitTown) -> u64 {
     let (free, uniform) = (planned(town, budget), planned(town, &unwarped));
     let mut warped = 0;
     for (free, uniform) in free.lights().iter().zip(uniform.lights()) {
-        if (free.kind(), uniform.kind()) == (Kind::Perspective, Kind::Uniform) {
+        if (free.kind(), uniform.kind()) == (Kind::Warped, Kind::Uniform) {
             warped += 1;
             let (size, uniform_size) = (free.passes()[0].map_size(), uniform.passes()[0].map_size());
             assert!(size <= uniform_size, "{size} and {uniform_size} texels");

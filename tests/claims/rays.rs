@@ -1,10 +1,10 @@
 //! Where a map puts what must be in it, in f64: inside, a ray in one place, and what is nearer to the light before the
 //! rest.
 
-use glam::{DMat4, DVec3, DVec4};
+use glam::{DMat4, DVec2, DVec3, DVec4};
 use shadowfit::{ClipSpace, Form, Outcome, Settings};
 
-use crate::arbitrary::{Case, Numbers, SceneParams, Together, points_of};
+use crate::arbitrary::{Case, Numbers, SceneParams, Together, points_of, sides};
 
 /// A row of a matrix at a point, and how far rounding can carry it.
 ///
@@ -82,19 +82,19 @@ pub(crate) fn end_in_the_map(case: &Case, settings: &Settings, seed: u64) {
     let Outcome::Map(map) = focus.fit(settings) else { return };
     let matrix = map.shadow_from_world_in(ClipSpace::WGPU);
     let reach = reach(case, &together);
-    let border = f64::from(settings.border()) / f64::from(settings.map_size());
+    let border = f64::from(settings.border()) / sides(settings);
     let visible = points_of(&focus.visible(), seed);
     let casters = together.casters(&focus.body(Form::Tight), &visible, seed);
     // Among lists, receivers may be nearer to the light than the first caster.
     let separate = matches!(case.scene, SceneParams::Lists { .. });
-    for (name, points, inner) in [("R", visible, 1.0 - 2.0 * border), ("H", casters, 1.0)] {
+    for (name, points, inner) in [("R", visible, 1.0 - 2.0 * border), ("H", casters, DVec2::ONE)] {
         for point in points {
             if !together.is_served(point) {
                 continue;
             }
             let (place, slack, w) = projected(&matrix, point, reach);
             assert!(w > 0.0, "{name}: {point} has w {w}");
-            let is_inside = place.x.abs() <= inner + slack.x && place.y.abs() <= inner + slack.y;
+            let is_inside = place.x.abs() <= inner.x + slack.x && place.y.abs() <= inner.y + slack.y;
             assert!(is_inside, "{name}: {point} is at {place}, beyond {inner}");
             let is_behind = place.z >= -slack.z || separate && name == "R";
             assert!(is_behind && place.z <= 1.0 + slack.z, "{name}: {point} is at the depth of {place}");

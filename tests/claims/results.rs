@@ -1,7 +1,7 @@
 //! Everything that the crate says of a fit is a number.
 
 use shadowfit::{
-    DepthFormat, DepthResolution, Focus, Form, Light, Offset, Outcome, Scene, Settings, View, classify,
+    DepthFormat, DepthResolution, Focus, Form, Light, Offset, Outcome, Scene, Settings, View, Warp, classify,
 };
 
 /// Everything there is to know about a fit; none of it may be NaN.
@@ -22,6 +22,9 @@ pub(crate) fn exercise(view: &View, light: &Light, scene: &Scene<'_>, settings: 
     assert!(map.matrix().is_finite(), "{}", map.matrix());
     assert!(map.texture_matrix().is_finite(), "{}", map.texture_matrix());
     assert!(map.shadow_from_world().is_finite(), "{}", map.shadow_from_world());
+    // What was refused is the uniform map, and nothing else says that it was.
+    let refusable = matches!(settings.warp(), Warp::LightSpace | Warp::Trapezoidal | Warp::Stable);
+    assert!(map.refusal().is_none() || refusable && map.weakening() == 1.0, "{:?}", map.refusal());
     for &point in focus.visible().vertices() {
         let position = map.shadow_from_world() * point.extend(1.0);
         assert!(position.is_finite(), "{point} is at {position}");

@@ -1,12 +1,12 @@
 //! What f32 makes of a map: all that must be in it is, and its depths are as quiet as it says.
 
-use glam::{DVec3, DVec4, Vec4};
+use glam::{DVec2, DVec3, DVec4, Vec4};
 use shadowfit::{ClipSpace, DepthRange, Form, Map, Origin, Outcome, Settings, View};
 
-use crate::arbitrary::{Case, SceneParams, Together, points_of};
+use crate::arbitrary::{Case, SceneParams, Together, points_of, sides};
 
 /// What the f32 matrix makes of a position that is an f32 too, as a vertex shader does it.
-fn in_f32(map: &Map, view: &View, point: DVec3) -> Vec4 {
+pub(crate) fn in_f32(map: &Map, view: &View, point: DVec3) -> Vec4 {
     let origin = match map.settings().origin() {
         Origin::World => DVec3::ZERO,
         Origin::Eye => view.eye(),
@@ -31,9 +31,9 @@ pub(crate) fn rounding(map: &Map, view: &View, point: DVec3) -> (f64, f64) {
 }
 
 /// Whether a position is inside the sides of the clip volume, `inner` of the way from its middle.
-fn is_in_window(position: Vec4, inner: f64) -> bool {
+pub(crate) fn is_in_window(position: Vec4, inner: DVec2) -> bool {
     let [x, y, _, w] = position.to_array().map(f64::from);
-    w > 0.0 && x.abs() <= inner * w && y.abs() <= inner * w
+    w > 0.0 && x.abs() <= inner.x * w && y.abs() <= inner.y * w
 }
 
 /// Whether a position is behind the near end of the depth range of a convention, and before its far end.
@@ -53,13 +53,13 @@ pub(crate) fn holds_what_it_must(case: &Case, settings: &Settings, seed: u64) {
     let focus = together.focus();
     let Outcome::Map(map) = focus.fit(settings) else { return };
     // The border is measured in f64 after the division, which is a rounding more than the map answers for.
-    let border = f64::from(settings.border()) / f64::from(settings.map_size());
+    let border = f64::from(settings.border()) / sides(settings);
     let inner = (1.0 - 2.0 * border) * (1.0 + f64::EPSILON);
     let visible = points_of(&focus.visible(), seed);
     let body = focus.body(Form::Tight);
     let casters = together.casters(&body, &visible, seed);
     let l = together.light.homogeneous();
-    for (name, points, inner) in [("R", visible, inner), ("H", casters, 1.0)] {
+    for (name, points, inner) in [("R", visible, inner), ("H", casters, DVec2::ONE)] {
         for point in points {
             // A scene of millimetres about a lamp a thousand kilometres from the origin is beyond f32: w may be 0.
             let (across, of_w) = rounding(&map, &together.view, point);

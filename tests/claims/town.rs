@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use glam::{DVec3, Vec3};
 use rand::rngs::StdRng;
 use rand::{Rng, RngExt as _, SeedableRng as _, TryRng};
-use shadowfit::{Aabb, Budget, Filter, Light, Object, Settings, Solidity, Surface, View, Warp};
+use shadowfit::{Aabb, Budget, Effort, Filter, Light, Object, Settings, Solidity, Surface, View, Warp};
 
 /// All that a plan is made from.
 #[derive(Debug)]
@@ -138,7 +138,13 @@ pub(crate) fn light(rng: &mut impl Rng) -> Light {
 
 pub(crate) fn budget(rng: &mut impl Rng) -> Budget {
     let size = 1 << rng.random_range(6..12);
-    let warp = if rng.random_bool(0.2) { Warp::Uniform } else { Warp::Perspective };
+    let warp = match rng.random_range(0..10) {
+        0 => Warp::Uniform,
+        1 => Warp::Stable,
+        2 => Warp::LightSpace,
+        3 | 4 => Warp::Best(Effort::Rough),
+        _ => Warp::Perspective,
+    };
     let filter = match rng.random_range(0..3) {
         0 => Filter::Nearest,
         1 => Filter::Hardware,

@@ -3,7 +3,7 @@
 use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec3};
 use shadowfit::{LEAST_INCIDENCE, Map, Origin, Outcome, Rule, Settings, TangentPlane};
 
-use crate::arbitrary::{Case, Numbers, Together, points_of};
+use crate::arbitrary::{Case, Numbers, Together, points_of, sides};
 
 /// The unit roundoffs.
 const F64: f64 = 0.5 * f64::EPSILON;
@@ -84,7 +84,7 @@ pub(crate) fn direction(numbers: &mut Numbers) -> DVec3 {
 fn planes(map: &Map, visible: &[DVec3], seed: u64) -> Vec<(DVec3, DVec3, DVec3)> {
     let mut numbers = Numbers(seed);
     let texture = map.texture_from_world();
-    let texels = |point| projected(texture, point).truncate() * f64::from(map.settings().map_size());
+    let texels = |point| projected(texture, point).truncate() * sides(map.settings());
     visible
         .iter()
         .filter_map(|&point| {
@@ -168,8 +168,8 @@ pub(crate) fn shaders_find_them(case: &Case, settings: &Settings, seed: u64) {
         let world = Error::of(map.texture_from_world(), point, normal, F64);
         let Some(in_f64) = world else { continue };
         let (projected, slopes) = in_a_shader(map.texture_matrix(), position, normal.as_vec3());
-        let size = f64::from(map.settings().map_size());
-        for off in [DVec2::new(-0.5, 0.5), DVec2::new(1.0, 0.3), DVec2::new(1.5, -1.5)].map(|off| off / size) {
+        let sides = sides(map.settings());
+        for off in [DVec2::new(-0.5, 0.5), DVec2::new(1.0, 0.3), DVec2::new(1.5, -1.5)].map(|off| off / sides) {
             let place = (plane.place() + off).as_vec2();
             let found = f64::from(projected.z + slopes.dot(place - projected.truncate()));
             let expected = plane.depth_at(place.as_dvec2());
@@ -186,10 +186,10 @@ pub(crate) fn rules_hold_where_planes_are_seen(case: &Case, settings: &Settings,
     let focus = together.focus();
     let Outcome::Map(map) = focus.fit(settings) else { return };
     // All texels that a filter reads are in the map.
-    let margin = 4.0 / f64::from(settings.map_size());
+    let margin = 4.0 / sides(settings);
     for (point, normal, _) in planes(&map, &points_of(&focus.visible(), seed), seed) {
         let Some(plane) = TangentPlane::new(&map, point, normal) else { continue };
-        if plane.place().min_element() > margin && plane.place().max_element() < 1.0 - margin {
+        if plane.place().cmpgt(margin).all() && plane.place().cmplt(1.0 - margin).all() {
             rules_only_cut_short(&map, plane, seed);
         }
     }
@@ -198,19 +198,19 @@ pub(crate) fn rules_hold_where_planes_are_seen(case: &Case, settings: &Settings,
 /// Asserts that where the rules differ from a test that asks the plane at every texel, on depths about the plane at
 /// random, the point passes against all texels or against none.
 pub(crate) fn rules_only_cut_short(map: &Map, plane: TangentPlane, seed: u64) {
-    let size = f64::from(map.settings().map_size());
+    let sides = sides(map.settings());
     let away = if map.settings().clip().depth.is_reversed() { -1.0 } else { 1.0 };
-    let spread = 4.0 * plane.slopes().abs().element_sum() / size;
+    let spread = 4.0 * (plane.slopes().abs() / sides).element_sum();
     let field = |x: u32, y: u32| Numbers(seed ^ u64::from(x) << 32 ^ u64::from(y)).part() - 0.5;
     let stored = |x: u32, y: u32| plane.depth() + spread * field(x, y);
     let tolerance = plane.tolerance(1e-7);
     let passes = |depth: f64, x: u32, y: u32| away * (depth.clamp(0.0, 1.0) - stored(x, y)) <= tolerance;
     for taps in 1..=5_u32 {
-        let first = (plane.place() * size - 0.5 * f64::from(taps - 1)).floor();
+        let first = (plane.place() * sides - 0.5 * f64::from(taps - 1)).floor();
         let texels: Vec<(u32, u32)> =
             (0..taps * taps).map(|i| (first.x as u32 + i % taps, first.y as u32 + i / taps)).collect();
         let of_point = texels.iter().filter(|&&(x, y)| passes(plane.depth(), x, y)).count();
-        let at = |x: u32, y: u32| plane.depth_at((DVec2::new(f64::from(x), f64::from(y)) + 0.5) / size);
+        let at = |x: u32, y: u32| plane.depth_at((DVec2::new(f64::from(x), f64::from(y)) + 0.5) / sides);
         let of_plane = texels.iter().filter(|&&(x, y)| passes(at(x, y), x, y)).count();
         let sampled = plane.mean(taps, 1e-7, stored);
         let expected = match sampled.rule {
@@ -226,13 +226,13 @@ pub(crate) fn rules_only_cut_short(map: &Map, plane: TangentPlane, seed: u64) {
     }
     // Blended, the weights are those of the centres around the point.
     let blended = plane.blended(1e-7, stored);
-    let corner = plane.place() * size - 0.5;
+    let corner = plane.place() * sides - 0.5;
     let part = corner.fract();
     let weights =
         [(1.0 - part.x) * (1.0 - part.y), part.x * (1.0 - part.y), (1.0 - part.x) * part.y, part.x * part.y];
     let (x, y) = (corner.x as u32, corner.y as u32);
     let around = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
-    let at = |x: u32, y: u32| plane.depth_at((DVec2::new(f64::from(x), f64::from(y)) + 0.5) / size);
+    let at = |x: u32, y: u32| plane.depth_at((DVec2::new(f64::from(x), f64::from(y)) + 0.5) / sides);
     let share: f64 =
         around.iter().zip(weights).filter(|((x, y), _)| passes(at(*x, *y), *x, *y)).map(|(_, w)| w).sum();
     if blended.rule == Rule::VirtualSamples {

@@ -29,6 +29,19 @@ fn hemispheres_hold_what_they_must() {
     assert!(one.get() > 100 && two.get() > 100, "{one:?} {two:?}");
 }
 
+/// Of settings that are not square a paraboloid map has the shorter side, either way.
+#[test]
+fn maps_are_square() {
+    let (view, room) = (view(), room());
+    let lamp = lamp([0.0, 0.0, 0.0]);
+    let focus = Focus::new(&view, &lamp, &room);
+    let square = Settings::new(512, 1080).and_then(|settings| settings.with_border(7)).expect("legal sizes");
+    for (width, height) in [(512, 2048), (3000, 512)] {
+        let settings = square.with_map_sides(width, height).expect("legal sizes");
+        assert_eq!(focus.paraboloids(&settings), focus.paraboloids(&square));
+    }
+}
+
 #[test]
 fn which_hemispheres() {
     let settings = Settings::default();

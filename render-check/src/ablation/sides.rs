@@ -37,8 +37,8 @@ impl Sides {
         Ok(match effect {
             Effect::Map => Self { is_asked_for: true, with: Some(planned), without: None },
             Effect::Warp => {
-                ensure!(setup.is(Kind::Uniform) || setup.is(Kind::Perspective), "there is no single frustum");
-                let is_warped = setup.is(Kind::Perspective);
+                ensure!(setup.is(Kind::Uniform) || setup.is(Kind::Warped), "there is no single frustum");
+                let is_warped = setup.is(Kind::Warped);
                 let warp = if is_warped { Warp::Uniform } else { Warp::Perspective };
                 let other = setup.refitted(&planned, view, |settings| {
                     Ok(settings.with_warp(warp).with_shift(Shift::default()))
@@ -46,7 +46,7 @@ impl Sides {
                 Self::of(is_warped, planned, other)
             }
             Effect::BackShift => {
-                ensure!(setup.is(Kind::Perspective), "there is no warp whose camera could be moved");
+                ensure!(setup.is(Kind::Warped), "there is no warp whose camera could be moved");
                 let other = setup.refitted(&planned, view, |settings| {
                     Ok(settings.with_shift(Setup::other_shift(settings.shift())))
                 })?;

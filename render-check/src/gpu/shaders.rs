@@ -71,7 +71,8 @@ fn shadow_test(layout: LayoutText, lookup: &str) -> String {
         LayoutText::Paraboloid => (wgsl::PARABOLOID, include_str!("shaders/paraboloid.wgsl")),
     };
     let own = [include_str!("shaders/full_screen.wgsl"), include_str!("shaders/shadow_test.wgsl"), layout, lookup];
-    let functions = [functions, wgsl::MAP_ARRAY, wgsl::FILTERS, wgsl::VIRTUAL_SAMPLES, wgsl::BETWEEN_LAYERS];
+    let functions =
+        [functions, wgsl::SLICES, wgsl::MAP_ARRAY, wgsl::FILTERS, wgsl::VIRTUAL_SAMPLES, wgsl::BETWEEN_LAYERS];
     functions.into_iter().chain(own).collect()
 }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::time::Duration;
 
 use anyhow::{Context, Result, bail, ensure};
-use shadowfit::glam::{Mat4, Vec2, Vec3, Vec4};
+use shadowfit::glam::{DVec3, Mat4, Vec2, Vec3, Vec4};
 use shadowfit::{ClipSpace, Culling, DepthFormat, DepthRange, Offset, Paraboloid, YAxis};
 
 use super::pass::{Pass, PipelineKind, depth_state};
@@ -73,10 +73,8 @@ pub struct ShadowMaps {
     /// The map in each layer, and what receivers are to be tested with.
     pub(super) maps: Vec<(Layout, Offset)>,
     pub(super) format: DepthFormat,
-    /// The axis of each part of the light and, in w, its layer; −1 for a part without a map.
-    pub(super) parts: Vec<Vec4>,
-    /// The light's position, relative to the geometry's origin.
-    pub(super) light: Vec3,
+    /// `Split` of `shadow_test.wgsl`, row by row.
+    pub(super) split: Vec<Vec4>,
     /// How long the card took for all of them, where it has a clock.
     pub time: Option<Duration>,
 }
@@ -124,11 +122,6 @@ impl ShadowMaps {
                 };
                 time = time.zip(took).zip(took_again).map(|((sum, took), again)| sum + took + again);
             }
-            let mut layer = -1.0;
-            let parts = split.axes().iter().zip(maps).map(|(axis, map)| {
-                layer += f32::from(u8::from(map.is_some()));
-                axis.as_vec3().extend(if map.is_some() { layer } else { -1.0 })
-            });
             let receiver = |draw: &MapDraw<'_>| {
                 let offset = Offset::relative(draw.pass.relative).and_then(|it| it.and_depth(draw.pass.receiver));
                 let offset = offset.context("receivers cannot be moved so")?;
@@ -136,12 +129,11 @@ impl ShadowMaps {
             };
             Ok(Self {
                 view: nearest.all,
-                parts: parts.collect(),
+                split: split_rows(split, maps, geometry.origin()),
                 layers: nearest.one_by_one,
                 behind,
                 format: first.pass.format,
                 maps: drawn.iter().map(|draw| receiver(draw)).collect::<Result<_>>()?,
-                light: (split.position() - geometry.origin()).as_vec3(),
                 time,
             })
         })
@@ -158,6 +150,19 @@ impl ShadowMaps {
             |(layer, (map, _)): (_, &(Layout, _))| read_back::depths(gpu, layer, map.settings().map_size());
         gpu.guarded("the shadow map's depths", || self.layers.iter().zip(&self.maps).map(depths).collect())
     }
+}
+
+/// Which layer answers for which points, relative to an origin; −1 for a part without a map.
+fn split_rows(split: &Split, maps: &[Option<MapDraw<'_>>], origin: DVec3) -> Vec<Vec4> {
+    let (light, ends) = ((split.position() - origin).as_vec3(), split.ends());
+    let mut rows = vec![light.extend(if ends.is_some() { 1.0 } else { 0.0 }), split.depth_row(origin).as_vec4()];
+    rows.extend(ends.unwrap_or_default().as_chunks().0.iter().copied().map(Vec4::from_array));
+    let mut layer = -1.0;
+    rows.extend(maps.iter().enumerate().map(|(part, map)| {
+        layer += f32::from(u8::from(map.is_some()));
+        split.axis(part).as_vec3().extend(if map.is_some() { layer } else { -1.0 })
+    }));
+    rows
 }
 
 /// A texture with a layer for each map.

@@ -147,8 +147,7 @@ fn shadow_test_unguarded(
     }
     .build(gpu);
 
-    let split = [shadow_maps.light.extend(0.0)].into_iter().chain(shadow_maps.parts.iter().copied());
-    let split = gpu.storage(split.flat_map(|row| row.to_array()));
+    let split = gpu.storage(shadow_maps.split.iter().flat_map(|row| row.to_array()));
     let layers = gpu.storage(shadow_maps.maps.iter().flat_map(|(map, receiver)| layer(map, receiver, shadow_maps)));
     let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
         mag_filter: wgpu::FilterMode::Linear,

@@ -62,22 +62,19 @@ impl DepthMap {
     }
 }
 
-/// One map of a picture: its title, and its lens where it could be fitted.
-pub type TitledMap<'a> = (&'a str, Option<&'a Lens>);
+/// One map of a picture: its title and its lens.
+pub type TitledMap = (String, Lens);
 
-/// Casts two maps of `size` texels and puts them side by side, each with the focus body's edges as the map sees them.
+/// Casts maps of `size` texels and puts them side by side, each with the focus body's edges as the map sees them.
 #[must_use]
-pub fn maps_view(maps: [TitledMap<'_>; 2], size: u32, tracer: &Tracer, body: &[Line]) -> RgbImage {
+pub fn maps_view(maps: &[TitledMap], size: u32, tracer: &Tracer, body: &[Line]) -> RgbImage {
     let shown = size.min(MOST_TEXELS);
     let top = 2 * GAP + text::LETTER;
-    let mut image = RgbImage::from_pixel(2 * shown + 3 * GAP, top + shown + GAP, GROUND);
-    for (i, (title, lens)) in maps.into_iter().enumerate() {
-        let left = GAP + i as u32 * (shown + GAP);
+    let width = GAP + maps.len() as u32 * (shown + GAP);
+    let mut image = RgbImage::from_pixel(width, top + shown + GAP, GROUND);
+    for (left, (title, lens)) in (GAP..).step_by((shown + GAP) as usize).zip(maps) {
         text::write(&mut image, title, left, GAP, TEXT);
-        let map = match lens {
-            Some(lens) => with_lines(DepthMap::cast(lens, shown, tracer).to_image(), lens, body),
-            None => RgbImage::from_pixel(shown, shown, NOTHING),
-        };
+        let map = with_lines(DepthMap::cast(lens, shown, tracer).to_image(), lens, body);
         image::imageops::replace(&mut image, &map, i64::from(left), i64::from(top));
     }
     image

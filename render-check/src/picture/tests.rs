@@ -131,12 +131,17 @@ fn a_depth_map_holds_the_square_in_the_texels_below_it() {
 }
 
 #[test]
-fn a_map_that_could_not_be_fitted_leaves_its_half_empty() {
+fn maps_stand_side_by_side() {
     let mesh = floating_square();
     let tracer = Tracer::new(&mesh).expect("it has triangles");
-    let lens = Lens::parallel(4.0 * DVec3::Y, [DVec3::X, DVec3::NEG_Z, DVec3::NEG_Y], DVec2::splat(8.0), 5.0);
-    let lens = lens.expect("sound");
-    let image = maps_view([("one", Some(&lens)), ("none", None)], 32, &tracer, &[]);
+    let lens = |size: f64| {
+        let axes = [DVec3::X, DVec3::NEG_Z, DVec3::NEG_Y];
+        Lens::parallel(4.0 * DVec3::Y, axes, DVec2::splat(size), 5.0).expect("sound")
+    };
+    // The second shows the middle of the square, and nothing else.
+    let maps = [("wide".to_owned(), lens(8.0)), ("near".to_owned(), lens(0.1))];
+    let image = maps_view(&maps, 32, &tracer, &[]);
+    assert_eq!(image.dimensions(), (12 + 2 * (32 + 12), 40 + 32 + 12));
     let colours = |columns: std::ops::Range<u32>| {
         let mut all: Vec<_> = columns.map(|x| image.get_pixel(x, image.height() - 28).0).collect();
         all.dedup();

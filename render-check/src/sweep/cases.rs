@@ -17,6 +17,7 @@ use crate::gpu::{Filter, Points};
 use crate::light::LightSpec;
 use crate::run::Options;
 use crate::scene::{self, LoadedScene};
+use crate::slicing::{Slicing, SplitArg};
 use crate::technique::Technique;
 use crate::trace::{Faces, Tracer};
 
@@ -59,17 +60,39 @@ impl Shot {
     pub(super) fn with_options(self, options: Vec<Options>) -> Self {
         Self { options, ..self }
     }
+
+    /// With every kind of warp.
+    fn warped(self) -> Self {
+        self.with_options(Technique::WARPS.map(|technique| Options::new(technique, MAP_SIZE)).to_vec())
+    }
+
+    /// And with texels that stay where they are.
+    fn and_stable(mut self) -> Self {
+        self.options.push(Options::new(Technique::Stable, MAP_SIZE));
+        self
+    }
 }
 
 /// All groups.
-pub const GROUPS: [Group; 21] = [
-    Group { name: "classes-of-suns", shots: || Ok(vec![chess_board()?.shot("arc", suns_across)?]) },
-    Group { name: "classes-of-lamps", shots: || Ok(vec![chess_board()?.shot("line", lamps_through_the_plane)?]) },
-    Group { name: "through-the-back", shots: || Ok(vec![chess_board()?.shot("viewer's back", through_the_back)?]) },
-    Group { name: "behind-the-eye", shots: || Ok(vec![Stand::built_in("behind")?.own_lights("figure")?]) },
+pub const GROUPS: [Group; 23] = [
+    Group {
+        name: "classes-of-suns",
+        shots: || Ok(vec![chess_board()?.shot("arc", suns_across)?.warped().and_stable()]),
+    },
+    Group {
+        name: "classes-of-lamps",
+        shots: || Ok(vec![chess_board()?.shot("line", lamps_through_the_plane)?.warped()]),
+    },
+    Group {
+        name: "through-the-back",
+        shots: || Ok(vec![chess_board()?.shot("viewer's back", through_the_back)?.warped()]),
+    },
+    Group { name: "behind-the-eye", shots: || Ok(vec![Stand::built_in("behind")?.own_lights("figure")?.warped()]) },
     Group { name: "lights-inside", shots: lights_inside },
     Group { name: "paraboloids", shots: paraboloids },
     Group { name: "flat", shots: flat },
+    Group { name: "stable", shots: stable },
+    Group { name: "slices", shots: slices },
     Group { name: "far-planes", shots: far_planes },
     Group { name: "scales", shots: scales },
     Group { name: "clip-spaces", shots: || Ok(vec![lit_chess_board()?.with_options(clip_spaces())]) },
@@ -190,6 +213,45 @@ fn paraboloids() -> Result<Vec<Shot>> {
     Ok([room, board].map(|shot| shot.with_options(options.clone())).into())
 }
 
+/// Maps that stay put: suns, a spot, a lamp's faces, about the eye and in world space, at home and far from it.
+fn stable() -> Result<Vec<Shot>> {
+    let wide = Filter::PercentageCloser(5);
+    let mut options = Vec::new();
+    for technique in [Technique::Stable, Technique::CubeStable] {
+        let plain = Options::new(technique, MAP_SIZE);
+        options.extend([plain, Options { filter: wide, clip: ClipArg::OpenglReversed, ..plain }]);
+    }
+    let far = || chess_board().map(|stand| stand.scene.moved(1.0, 1e6 * DVec3::new(1.0, -0.3, 0.7)));
+    let shots = [
+        lit_chess_board()?,
+        Shot { origin: Origin::World, ..chess_board()?.own_lights("chess board in world space")? },
+        Stand::before(far()?)?.own_lights("a million away")?,
+        Stand::built_in("street")?.own_lights("street")?,
+        Stand::built_in("room")?.own_lights("room")?,
+    ];
+    Ok(shots.map(|shot| shot.with_options(options.clone())).into())
+}
+
+/// Two slices to eight, split in every way, of all that is wide and little that is high.
+fn slices() -> Result<Vec<Shot>> {
+    let mut options = Vec::new();
+    for technique in [Technique::Uniform, Technique::Psm, Technique::Best, Technique::Stable] {
+        for (count, split) in [
+            (2, shadowfit::Split::Uniform),
+            (3, shadowfit::Split::Blended(0.5)),
+            (5, shadowfit::Split::Logarithmic),
+            (8, shadowfit::Split::Logarithmic),
+        ] {
+            let slicing = Some(Slicing { count, split: SplitArg(split) });
+            options.push(Options { slicing, ..Options::new(technique, MAP_SIZE / 2) });
+        }
+    }
+    let wide = Filter::PercentageCloser(5);
+    options.push(Options { filter: wide, clip: ClipArg::VulkanReversed, ..options[3] });
+    let shots = [lit_chess_board()?, Stand::built_in("street")?.own_lights("street")?];
+    Ok(shots.map(|shot| shot.with_options(options.clone())).into())
+}
+
 /// A street with the near plane a step from the eye, where there is only air, and with it close before what is seen.
 fn street() -> Result<Vec<Shot>> {
     let narrowed = || -> Result<Stand> {
@@ -198,8 +260,8 @@ fn street() -> Result<Vec<Shot>> {
         Ok(stand)
     };
     Ok(vec![
-        Stand::built_in("street")?.own_lights("near plane in the air")?,
-        narrowed()?.own_lights("near plane at what is seen")?,
+        Stand::built_in("street")?.own_lights("near plane in the air")?.warped(),
+        narrowed()?.own_lights("near plane at what is seen")?.warped(),
     ])
 }
 
@@ -241,16 +303,15 @@ fn scales() -> Result<Vec<Shot>> {
     .collect()
 }
 
+/// No warp, a warp along the view, and any warp in any window: enough where warps are not what is swept.
+pub(super) const EXTREMES: [Technique; 3] = [Technique::Uniform, Technique::Psm, Technique::Best];
+
 /// Every clip space, fixed and floating point.
 fn clip_spaces() -> Vec<Options> {
     let mut all = Vec::new();
     for &clip in ClipArg::value_variants() {
         for format in [DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32] {
-            all.extend(Technique::COMPARED.map(|technique| Options {
-                clip,
-                format,
-                ..Options::new(technique, MAP_SIZE)
-            }));
+            all.extend(EXTREMES.map(|technique| Options { clip, format, ..Options::new(technique, MAP_SIZE) }));
         }
     }
     all
@@ -268,11 +329,7 @@ fn filters() -> Vec<Options> {
     for faces in [Faces::All, Faces::Front, Faces::Back] {
         for filter in [Filter::Nearest, Filter::Hardware, Filter::PercentageCloser(3), Filter::PercentageCloser(5)]
         {
-            all.extend(Technique::COMPARED.map(|technique| Options {
-                faces,
-                filter,
-                ..Options::new(technique, MAP_SIZE)
-            }));
+            all.extend(EXTREMES.map(|technique| Options { faces, filter, ..Options::new(technique, MAP_SIZE) }));
         }
     }
     all
@@ -292,7 +349,7 @@ fn solids() -> Vec<Options> {
 fn open_sheets() -> Result<Vec<Shot>> {
     let ways = [(Faces::Second, Filter::Virtual(2)), (Faces::Layers, Filter::Nearest)];
     let of = |technique| ways.map(|(faces, filter)| Options { faces, filter, ..Options::new(technique, MAP_SIZE) });
-    let options: Vec<_> = [Technique::Uniform, Technique::Psm].into_iter().flat_map(of).collect();
+    let options: Vec<_> = EXTREMES.into_iter().flat_map(of).collect();
     ["ground", "leaves"]
         .into_iter()
         .map(|name| Ok(Stand::built_in(name)?.own_lights(name)?.with_options(options.clone())))
@@ -318,9 +375,6 @@ fn virtual_samples() -> Result<Vec<Shot>> {
 
 /// A cloud as hexagons and as splats.
 fn points() -> Vec<Options> {
-    let of = |points| {
-        [Technique::Uniform, Technique::Psm]
-            .map(|technique| Options { points, ..Options::new(technique, MAP_SIZE) })
-    };
+    let of = |points| EXTREMES.map(|technique| Options { points, ..Options::new(technique, MAP_SIZE) });
     [Points::Discs, Points::Splats].into_iter().flat_map(of).collect()
 }

@@ -4,7 +4,7 @@ use anyhow::Result;
 use shadowfit::Origin;
 use shadowfit::glam::DVec3;
 
-use super::cases::{MAP_SIZE, Shot, Stand};
+use super::cases::{EXTREMES, MAP_SIZE, Shot, Stand};
 use crate::gpu::Filter;
 use crate::run::Options;
 use crate::scene::damage::{Fault, damaged, in_single_precision};
@@ -16,7 +16,7 @@ use crate::trace::Faces;
 pub(super) fn faults() -> Result<Vec<Shot>> {
     let second =
         Options { faces: Faces::Second, filter: Filter::Virtual(2), ..Options::new(Technique::Uniform, MAP_SIZE) };
-    let [uniform, psm] = [Technique::Uniform, Technique::Psm].map(|technique| Options::new(technique, MAP_SIZE));
+    let [uniform, psm, best] = EXTREMES.map(|technique| Options::new(technique, MAP_SIZE));
     let mut shots = Vec::new();
     for name in ["chess-board", "street"] {
         let sound = Stand::built_in(name)?;
@@ -26,7 +26,7 @@ pub(super) fn faults() -> Result<Vec<Shot>> {
             shots.push(stand.own_lights(&format!("{name}, {}", fault.words()))?);
         }
     }
-    Ok(shots.into_iter().map(|shot| shot.with_options(vec![uniform, psm, second])).collect())
+    Ok(shots.into_iter().map(|shot| shot.with_options(vec![uniform, psm, best, second])).collect())
 }
 
 /// Millimetres in a unit of the chess board.
@@ -35,8 +35,9 @@ const MILLIMETRES: f64 = 1e3;
 /// The chess board in millimetres, a kilometre and a thousand kilometres from the origin, its vertices in f32 as files have
 /// them: drawn about the eye, drawn in world space, and, for comparison, what f32 has made of its shape drawn at home.
 pub(super) fn far_off() -> Result<Vec<Shot>> {
-    let mut options =
-        [Technique::Uniform, Technique::Psm, Technique::Cube].map(|way| Options::new(way, MAP_SIZE)).to_vec();
+    let mut options = [Technique::Uniform, Technique::Psm, Technique::Best, Technique::Cube]
+        .map(|way| Options::new(way, MAP_SIZE))
+        .to_vec();
     options.push(Options { filter: Filter::PercentageCloser(3), ..options[0] });
     let mut shots = Vec::new();
     for (words, distance) in [("1e6 mm", 1e6), ("1e9 mm", 1e9)] {

@@ -160,8 +160,9 @@ impl Summary {
 
 impl fmt::Display for SweepRun {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let RunReport { light, class, technique, map_size, filter, .. } = &self.run;
-        write!(f, "{} ({light}, {class}), {technique} {map_size}, {filter}", self.case)
+        let RunReport { light, class, technique, map_size, slicing, filter, .. } = &self.run;
+        write!(f, "{} ({light}, {class}), {technique} {map_size}, {filter}", self.case)?;
+        slicing.map_or(Ok(()), |slicing| write!(f, ", {} slices, {}", slicing.count, slicing.split))
     }
 }
 

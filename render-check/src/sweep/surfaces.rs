@@ -93,7 +93,7 @@ fn shot(scene: LoadedScene, crossings: &[Crossing]) -> Result<Shot> {
     let lamps = (1..).zip(crossings).flat_map(|(number, crossing)| crossing.lamps(number)).collect();
     let name = scene.name.clone();
     let shot = Stand::before(scene)?.shot(&name, |_| lamps)?;
-    let techniques = [Technique::Uniform, Technique::Psm, Technique::Cube, Technique::Paraboloid];
+    let techniques = [Technique::Uniform, Technique::Psm, Technique::Best, Technique::Cube, Technique::Paraboloid];
     let options = techniques.map(|technique| Options::new(technique, MAP_SIZE)).to_vec();
     Ok(Shot { image: IMAGE, ..shot.with_options(options) })
 }

@@ -3,9 +3,11 @@
 //! Whether a pixel of the picture is wrong says little about why. This looks into the map itself, at the texel that the
 //! pixel's point falls in, and flags it only where no sampling, bias or rounding can explain what is there.
 //!
-//! Five rays of light go through the texel: through its centre, where the rasteriser samples, and through four places a
-//! sixteenth of a texel off, so that a caster's edge close to the centre leaves no doubt of which side it is on. Each
-//! ends on the receiver's tangent plane. A caster is missing where all five meet drawn faces of one surface, where the
+//! Nine rays of light go through the texel: through its centre, where the rasteriser samples, through four places a
+//! sixteenth of a texel off, so that a caster's edge close to the centre leaves no doubt of which side it is on, and
+//! through four a 256th off, the rasteriser's grid: a triangle thinner than a sixteenth, which the light sees nearly from its
+//! edge, may come to lie over the centre there, with a slope and a bias that are its own. Each
+//! ends on the receiver's tangent plane. A caster is missing where all of them meet drawn faces of one surface, where the
 //! farthest depth that these faces can have been stored with lies before the nearest depth of the receiver, and where the
 //! map yet holds a depth beyond that. It must lie before the receiver's own point, too: where the light grazes the receiver
 //! its tangent plane runs on behind other things within a texel, and what stands before it there, and beyond all that is
@@ -50,11 +52,14 @@ impl Comparison<'_> {
         };
         let stored = map.projection.index(place).map_or(f64::INFINITY, |texel| map.depth(texel));
         let (across, _) = map.projection.rounding(receiver.point);
-        let (centre, off) = (place.floor() + 0.5, OFF_CENTRE + across);
+        let centre = place.floor() + 0.5;
+        let around = [SUBTEXEL + across, OFF_CENTRE + across]
+            .into_iter()
+            .flat_map(|off| [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y].map(|way| off * way));
         let (mut farthest_caster, mut nearest_receiver) = (f64::NEG_INFINITY, f64::INFINITY);
         let mut surface = None;
-        for step in [DVec2::ZERO, DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y] {
-            let Some(depths) = self.caster_and_receiver(map, receiver, centre + off * step) else {
+        for step in [DVec2::ZERO].into_iter().chain(around) {
+            let Some(depths) = self.caster_and_receiver(map, receiver, centre + step) else {
                 return false;
             };
             if !touch(self.tracer.mesh(), *surface.get_or_insert(depths.triangle), depths.triangle) {
@@ -120,6 +125,10 @@ mod tests {
 
     use super::*;
     use crate::scene::{MeshBuilder, Part};
+    use crate::split::Split;
+    use crate::trace::Tracer;
+    use crate::verdict::fake::{self, Fake, SUN};
+    use crate::verdict::{Bias, Frustum, Projection as _, Truth};
 
     #[test]
     fn triangles_touch_at_corners_whoever_owns_them() {
@@ -132,5 +141,51 @@ mod tests {
         let (mesh, _) = builder.finish();
         assert!(touch(&mesh, 0, 0) && touch(&mesh, 0, 1) && touch(&mesh, 0, 2));
         assert!(!touch(&mesh, 0, 4) && !touch(&mesh, 2, 4));
+    }
+
+    /// Two triangles with a common corner, and between them one that the light sees nearly from its edge: a 25th of a texel
+    /// wide where it passes a 500th of a texel beside a texel's centre, and with a slope whose bias is more than there is
+    /// room for. A rasteriser may take it for what the centre shows.
+    #[test]
+    fn a_sliver_beside_a_texels_centre_may_be_what_is_stored() {
+        let map = fake::fitted(&SUN, &fake::settings().with_warp(shadowfit::Warp::Uniform));
+        let centre = DVec2::splat(128.5);
+        // From columns and rows beside the centre, and depth.
+        let at = |column: f64, row: f64, depth: f64| {
+            let clip = (centre + DVec2::new(column, row)) / 128.0 - 1.0;
+            map.shadow_from_world().inverse().project_point3(DVec3::new(clip.x, -clip.y, depth))
+        };
+        let (edge, above, below) = (0.002, 0.5, 0.6);
+        let [first, second] = [at(edge, -10.0, above), at(edge, 10.0, above)];
+        let deeper = at(edge + 0.08, 10.0, above + 0.02);
+        let corners = [first, second, deeper, at(-10.0, 0.0, above), at(10.0, 0.0, above + 0.02)];
+        let mesh_of = |triangles: &[[u32; 3]]| {
+            let part = Part { positions: &corners, normals: &[], triangles, colour: [1.0; 3] };
+            let mut builder = MeshBuilder::default();
+            builder.add(&part, DMat4::IDENTITY);
+            builder.finish().0
+        };
+        let is_missing = |triangles: &[[u32; 3]], slope: f64| {
+            let mesh = mesh_of(triangles);
+            let tracer = Tracer::new(&mesh).expect("it has triangles");
+            let truth = fake::truth(&SUN, &tracer);
+            assert!(truth.pixels().iter().any(|pixel| !matches!(pixel, Truth::Sky)));
+            let frustum = Frustum::new(&map, fake::view().eye());
+            // Nothing is stored.
+            let depths = vec![1.0; 256 * 256];
+            let bias = Bias { constant: 0.0, slope };
+            let drawn = DrawnMap { projection: &frustum, depths: &depths, is_reversed: false, bias };
+            let (split, maps) = (Split::whole(), [Some(drawn)]);
+            let rendered = Fake::default().hand_over(&split, &maps, &[]);
+            let comparison = Comparison { truth: &truth, rendered: &rendered, tracer: &tracer };
+            let point = at(0.1, 0.1, below);
+            assert!(frustum.place(point).is_some_and(|place| place.truncate().floor() == centre.floor()));
+            let normal = DVec3::new(0.5, 1.0, 0.3).normalize();
+            comparison.is_caster_missing(&drawn, &Surface { point, normal, triangle: 0 })
+        };
+        let (left, sliver, right) = ([0, 1, 3], [0, 1, 2], [0, 2, 4]);
+        assert!(!is_missing(&[left, sliver, right], 1.0));
+        // Without a bias it is no deeper than its corners, and what should be stored is missing for certain.
+        assert!(is_missing(&[left, sliver, right], 0.0));
     }
 }

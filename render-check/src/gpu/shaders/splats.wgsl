@@ -35,7 +35,7 @@ fn vertex(@builtin(vertex_index) index: u32) -> Corner {
     let corner = vec2(f32(quad_corner & 1u), f32(quad_corner >> 1u)) * 2.0 - 1.0;
     let radius = disc.radius * scale;
     let splat =
-        shadowfit_splat_corner(light.shadow_from_origin, disc.centre, disc.normal, radius, map_size, corner);
+        shadowfit_splat_corner(light.shadow_from_origin, disc.centre, disc.normal, radius, vec2(map_size), corner);
     return Corner(light.raster_from_clip * splat.clip, splat.offset);
 }
 

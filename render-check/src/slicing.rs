@@ -1,0 +1,94 @@
+//! The view cut into slices, as the command line asks for it.
+
+use std::fmt;
+use std::str::FromStr;
+
+use anyhow::{Context, Result};
+use shadowfit::{Cuts, Light, Scene, Slices, View};
+
+/// How a view is cut into slices, each with a map of its own.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Slicing {
+    /// How many slices, 1 to [`Slices::MAX`].
+    pub count: usize,
+    /// How depths are shared out among them.
+    pub split: SplitArg,
+}
+
+/// How depths are shared out among slices, as a word.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SplitArg(pub shadowfit::Split);
+
+impl Default for SplitArg {
+    /// Cuts in one ratio are the best there are for what is seen, as they begin where something is seen.
+    fn default() -> Self {
+        Self(shadowfit::Split::Logarithmic)
+    }
+}
+
+/// The word that the command line takes.
+impl fmt::Display for SplitArg {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            shadowfit::Split::Uniform => f.write_str("uniform"),
+            shadowfit::Split::Logarithmic => f.write_str("log"),
+            shadowfit::Split::Blended(part) => write!(f, "blended:{part}"),
+        }
+    }
+}
+
+impl FromStr for SplitArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let part = |text: &str| text.parse().ok().filter(|part| (0.0..=1.0).contains(part));
+        let split = match (text, text.strip_prefix("blended:").and_then(part)) {
+            ("uniform", _) => shadowfit::Split::Uniform,
+            ("log", _) => shadowfit::Split::Logarithmic,
+            (_, Some(part)) => shadowfit::Split::Blended(part),
+            _ => return Err("write uniform, log, or blended:PART with the logarithmic part, from 0 to 1".into()),
+        };
+        Ok(Self(split))
+    }
+}
+
+impl serde::Serialize for SplitArg {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl Slicing {
+    /// The cuts: between the depths of what may be seen, or, where they must not move with the camera, between its planes.
+    #[must_use]
+    pub fn cuts(&self, stay_put: bool) -> Cuts<'static> {
+        let Self { count, split: SplitArg(split) } = *self;
+        if stay_put { Cuts::View { count, split } } else { Cuts::Visible { count, split } }
+    }
+}
+
+/// Cuts a view. Nothing is blended from slice to slice: each pixel is of one slice.
+///
+/// # Errors
+///
+/// When cuts are to stay put in a view without an end.
+pub fn slices(view: &View, light: &Light, scene: &Scene<'static>, cuts: Cuts<'static>) -> Result<Slices<'static>> {
+    Slices::new(view, light, scene, cuts, 0.0)
+        .context("the view cannot be sliced; stable slices need a --far that is not inf")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn splits_are_spelled_as_they_are_read() {
+        for text in ["uniform", "log", "blended:0.5", "blended:1"] {
+            let split: SplitArg = text.parse().expect(text);
+            assert_eq!(split.to_string(), text);
+        }
+        for wrong in ["", "blended", "blended:", "blended:1.5", "blended:NaN", "logarithmic"] {
+            assert!(wrong.parse::<SplitArg>().is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! What a shader needs to know of slices, as one block of memory.
+
+use super::{Layout, SliceMaps, Slices};
+use crate::map::Map;
+use crate::offset::Offset;
+
+/// What a shader needs to know of slices: `struct shadowfit_Slices` of `wgsl::SLICES`, byte for byte.
+///
+/// Slices without a map have the layer −1, and so have those past the last. What is said of them besides is zero, but for
+/// depths: the last slice, and those past it, end at the largest f32.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct SliceUniform {
+    /// Columns of the matrix from positions to texture coordinates in the texture that holds all maps, and to the depth to
+    /// compare there, for each slice.
+    pub texture_from_origin: [[f32; 16]; Slices::MAX],
+    /// The least and the largest texture coordinates inside the border of each slice's map.
+    pub inner: [[f32; 4]; Slices::MAX],
+    /// The depth before the eye where each slice ends.
+    pub far: [f32; Slices::MAX],
+    /// The depth from which on the next slice is blended in.
+    pub blend: [f32; Slices::MAX],
+    /// The layer of each slice's map; −1 for none.
+    pub layer: [i32; Slices::MAX],
+}
+
+impl SliceUniform {
+    /// The size of the block in bytes.
+    pub const SIZE: usize = size_of::<Self>();
+
+    const NONE: Self = Self {
+        texture_from_origin: [[0.0; 16]; Slices::MAX],
+        inner: [[0.0; 4]; Slices::MAX],
+        far: [f32::MAX; Slices::MAX],
+        blend: [f32::MAX; Slices::MAX],
+        layer: [-1; Slices::MAX],
+    };
+
+    /// The block as bytes, little-endian as every GPU has it.
+    #[must_use]
+    pub fn to_bytes(&self) -> [u8; Self::SIZE] {
+        let mut bytes = [0; Self::SIZE];
+        let floats = self.texture_from_origin.as_flattened().iter().chain(self.inner.as_flattened());
+        let floats = floats.chain(&self.far).chain(&self.blend).map(|float| float.to_le_bytes());
+        let words = floats.chain(self.layer.map(i32::to_le_bytes));
+        for (bytes, word) in bytes.as_chunks_mut().0.iter_mut().zip(words) {
+            *bytes = word;
+        }
+        bytes
+    }
+}
+
+impl SliceMaps<'_, '_> {
+    /// What a shader needs to know of the slices and of their maps, kept as `layout` says.
+    ///
+    /// `offset` says of each map what its receivers are offset by in the test, if they are, see
+    /// [`Map::texture_matrix_with`].
+    #[must_use]
+    pub fn uniform(&self, layout: Layout, mut offset: impl FnMut(&Map) -> Option<Offset>) -> SliceUniform {
+        let mut uniform = SliceUniform::NONE;
+        // The last slice has no end, and nothing to blend in.
+        let cut = self.slices.iter().take(self.slices.len() - 1);
+        for (slice, (far, blend)) in cut.zip(uniform.far.iter_mut().zip(&mut uniform.blend)) {
+            (*far, *blend) = (slice.far as f32, slice.blend as f32);
+        }
+        for (index, map) in self.maps() {
+            let Some(tile) = self.tile(index, layout) else { continue };
+            let (least, most) = tile.inner(self.settings.border());
+            uniform.texture_from_origin[index] = tile.texture_matrix(map, offset(map).as_ref()).to_cols_array();
+            uniform.inner[index] = [least.x, least.y, most.x, most.y].map(|place| place as f32);
+            uniform.layer[index] = tile.layer as i32;
+        }
+        uniform
+    }
+}

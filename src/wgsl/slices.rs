@@ -1,0 +1,119 @@
+//! Functions that choose among the maps of slices.
+
+/// The slice that a depth belongs to, and where in its map to look, see [`Slices`](crate::Slices).
+///
+/// `shadowfit_Slices` is a struct for a shader's own uniform or storage buffer, filled with
+/// [`SliceUniform::to_bytes`](crate::SliceUniform::to_bytes). With a matrix of it, [`PROJECT`](super::PROJECT) and the filters
+/// work as on any map, in an array and in an atlas alike.
+///
+/// ```wgsl
+/// struct shadowfit_Slices {
+///     texture_from_origin: array<mat4x4<f32>, 8>,
+///     inner: array<vec4<f32>, 8>,
+///     far: array<vec4<f32>, 2>,
+///     blend: array<vec4<f32>, 2>,
+///     layer: array<vec4<i32>, 2>,
+/// }
+/// fn shadowfit_slice_at(far: array<vec4<f32>, 2>, depth: f32) -> i32
+/// fn shadowfit_slice_blend(far: array<vec4<f32>, 2>, blend: array<vec4<f32>, 2>, slice: i32, depth: f32) -> f32
+/// fn shadowfit_slice_layer(layer: array<vec4<i32>, 2>, slice: i32) -> i32
+/// fn shadowfit_slice_inside(inner: vec4<f32>, projected: vec3<f32>) -> vec3<f32>
+/// ```
+///
+/// A shader that blends:
+///
+/// ```wgsl
+/// fn light_of(slice: i32, position: vec3<f32>) -> f32 {
+///     let layer = shadowfit_slice_layer(slices.layer, slice);
+///     if layer < 0 {
+///         return 1.0;
+///     }
+///     let projected = shadowfit_project(slices.texture_from_origin[slice], position);
+///     return shadowfit_hardware(maps, layer, compare, shadowfit_slice_inside(slices.inner[slice], projected));
+/// }
+///
+/// fn light(depth: f32, position: vec3<f32>) -> f32 {
+///     let slice = shadowfit_slice_at(slices.far, depth);
+///     let blend = shadowfit_slice_blend(slices.far, slices.blend, slice, depth);
+///     if blend == 0.0 {
+///         return light_of(slice, position);
+///     }
+///     return mix(light_of(slice, position), light_of(slice + 1, position), blend);
+/// }
+/// ```
+pub const SLICES: &str = include_str!("slices.wgsl");
+
+#[cfg(test)]
+mod tests {
+    use super::super::{FILTERS, MAP, MAP_ARRAY, PROJECT, SLICES};
+    use crate::SliceUniform;
+    use core::mem::offset_of;
+    use naga::front::wgsl;
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+    use naga::{Module, TypeInner};
+    use std::format;
+    use std::vec::Vec;
+
+    fn validated(source: &str) -> Module {
+        let module = wgsl::parse_str(source).unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
+        let result = Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(&module);
+        assert!(result.is_ok(), "{}", result.unwrap_err().emit_to_string(source));
+        module
+    }
+
+    #[test]
+    fn the_functions_are_valid_and_theirs_are_the_only_names() {
+        let module = validated(SLICES);
+        assert!(module.global_variables.is_empty() && module.entry_points.is_empty());
+        let functions = module.functions.iter().filter_map(|(_, function)| function.name.as_ref());
+        let types = module.types.iter().filter_map(|(_, of)| of.name.as_ref());
+        assert!(functions.chain(types).all(|name| name.starts_with("shadowfit_")));
+    }
+
+    /// The shader's struct lies in memory as the one that is uploaded.
+    #[test]
+    fn the_block_is_laid_out_alike() {
+        let module = validated(SLICES);
+        let block = module.types.iter().find(|(_, of)| of.name.as_deref() == Some("shadowfit_Slices"));
+        let Some((_, naga::Type { inner: TypeInner::Struct { members, span }, .. })) = block else {
+            panic!("no struct");
+        };
+        let theirs: Vec<_> = members
+            .iter()
+            .map(|member| (member.name.as_deref().unwrap_or_default(), member.offset as usize))
+            .collect();
+        let ours = [
+            ("texture_from_origin", offset_of!(SliceUniform, texture_from_origin)),
+            ("inner", offset_of!(SliceUniform, inner)),
+            ("far", offset_of!(SliceUniform, far)),
+            ("blend", offset_of!(SliceUniform, blend)),
+            ("layer", offset_of!(SliceUniform, layer)),
+        ];
+        assert_eq!(theirs, ours);
+        assert_eq!(*span as usize, SliceUniform::SIZE);
+    }
+
+    /// The shader of the documentation, on an atlas and on an array.
+    #[test]
+    fn a_shader_can_blend_slices() {
+        let text = include_str!("slices.rs");
+        let (_, example) = text.split_once("/// A shader that blends:\n").expect("the example");
+        let (_, example) = example.split_once("/// ```wgsl\n").expect("its text");
+        let (example, _) = example.split_once("/// ```\n").expect("its end");
+        let example = example.replace("///", "");
+        let shader = "
+            @group(0) @binding(1) var compare: sampler_comparison;
+            @group(0) @binding(2) var<uniform> slices: shadowfit_Slices;
+
+            @fragment
+            fn fragment(
+                @location(0) position: vec3<f32>, @location(1) depth: f32,
+            ) -> @location(0) vec4<f32> {
+                return vec4(light(depth, position));
+            }";
+        for (map, kind) in [(MAP, "texture_depth_2d"), (MAP_ARRAY, "texture_depth_2d_array")] {
+            let bindings = format!("@group(0) @binding(0) var maps: {kind};\n");
+            validated(&[PROJECT, map, FILTERS, SLICES, &bindings, &example, shader].concat());
+        }
+    }
+}
