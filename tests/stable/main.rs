@@ -1,0 +1,14 @@
+//! Stable maps: texels that stay where they are in the world, whatever the camera does.
+//!
+//! Each property runs some thousands of cases from a fixed seed; `SHADOWFIT_CASES=100000` in the environment runs that many
+//! of each instead.
+
+#![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
+
+#[path = "../arbitrary/mod.rs"]
+mod arbitrary;
+mod cameras;
+mod depth;
+mod grid;
+mod refusals;
+mod windows;
