@@ -2,6 +2,7 @@
 
 use super::draft::{Change, Draft, Point};
 use crate::bounds::most;
+use core::ops::Mul;
 use glam::{DMat2, DMat4, DVec2, DVec4};
 
 /// How sharply the worst point counts for more than others: aliasing counts to the power of 2ᵏ, so that the sum over all
@@ -23,9 +24,9 @@ impl Sharpness {
         raised(squared, self.0 - 1)
     }
 
-    /// What a point counts for at a side of the window, in [0, 1], 1 at that side.
-    fn weight_at_side(self, place: f64) -> f64 {
-        raised(place, self.0 + 1)
+    /// What points count for at sides of the window, in [0, 1], 1 at that side.
+    fn weights_at_sides(self, places: DVec4) -> DVec4 {
+        raised(places, self.0 + 1)
     }
 
     /// How much a draft is better than another, for the 2ᵏ-th power of its stand-in: what part of that it takes off.
@@ -40,9 +41,9 @@ impl Sharpness {
 const LEAST_WEIGHT: f64 = 1e-6;
 
 /// value^(2^k).
-fn raised(mut value: f64, k: u32) -> f64 {
+fn raised<T: Copy + Mul<Output = T>>(mut value: T, k: u32) -> T {
     for _ in 0..k {
-        value *= value;
+        value = value * value;
     }
     value
 }
@@ -106,10 +107,7 @@ fn outer(a: DVec4, b: DVec4) -> DMat4 {
 /// move, and is never negative.
 pub(super) fn step(draft: &Draft, sharpness: Sharpness, damping: f64) -> Change {
     let (points, shape) = (draft.points(), draft.shape);
-    let moved_x = |s: DVec2| DVec4::new(-s.x * s.x, -s.x * s.y, s.y, 0.0);
-    let moved_y = |s: DVec2| DVec4::new(-s.x * s.y, -s.y * s.y, 0.0, s.x);
-    let width = side(points, sharpness, |s| s.x, moved_x).and(&side(points, sharpness, |s| -s.x, |s| -moved_x(s)));
-    let height = side(points, sharpness, |s| s.y, moved_y).and(&side(points, sharpness, |s| -s.y, |s| -moved_y(s)));
+    let [width, height] = extents(points, sharpness);
 
     let mut growth = Moments::NONE;
     let (mut wide, mut high) = (0.0, 0.0);
@@ -150,22 +148,28 @@ struct Extent {
 }
 
 impl Extent {
-    fn and(&self, other: &Self) -> Self {
-        Self { growth: self.growth + other.growth, curvature: self.curvature + other.curvature }
+    /// Of how two sides move outwards.
+    fn between(sides: &[Moments; 2], sharpness: Sharpness) -> Self {
+        let [one, other] = sides;
+        Self {
+            growth: (one.mean() + other.mean()) * 0.5,
+            curvature: (one.covariance() + other.covariance()) * (0.5 * sharpness.power()),
+        }
     }
 }
 
-/// A side of the window, where `place` is 1.
-fn side(
-    points: &[Point],
-    sharpness: Sharpness,
-    place: impl Fn(DVec2) -> f64,
-    moved: impl Fn(DVec2) -> DVec4,
-) -> Extent {
-    let mut moments = Moments::NONE;
-    for point in points {
-        let weight = sharpness.weight_at_side(0.5 * (1.0 + place(point.place)));
-        moments.include(weight, || moved(point.place));
+/// The extents from left to right and from bottom to top.
+fn extents(points: &[Point], sharpness: Sharpness) -> [Extent; 2] {
+    let [mut right, mut left, mut top, mut bottom] = [Moments::NONE; 4];
+    for Point { place: s, .. } in points {
+        let places = (DVec4::new(s.x, -s.x, s.y, -s.y) + 1.0) * 0.5;
+        let weights = sharpness.weights_at_sides(places);
+        let across = || DVec4::new(-s.x * s.x, -s.x * s.y, s.y, 0.0);
+        let upwards = || DVec4::new(-s.x * s.y, -s.y * s.y, 0.0, s.x);
+        right.include(weights.x, across);
+        left.include(weights.y, || -across());
+        top.include(weights.z, upwards);
+        bottom.include(weights.w, || -upwards());
     }
-    Extent { growth: moments.mean() * 0.5, curvature: moments.covariance() * (0.5 * sharpness.power()) }
+    [[right, left], [top, bottom]].map(|sides| Extent::between(&sides, sharpness))
 }
