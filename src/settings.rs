@@ -50,8 +50,15 @@ pub enum Warp {
     ///
     /// Not every light has such a map, see [`Refusal`](crate::Refusal); it is the uniform one then.
     Stable,
-    /// The best of all single matrices that a search of this effort finds, by the worst aliasing of what is visible. The
-    /// back-shift makes no difference to it.
+    /// The best of all single matrices that a search of this effort finds: over the warp, and over turn and shear of the window.
+    /// What counts is the worst aliasing over the vertices of what is visible and, under a light at a position, over the
+    /// middles of its edges too ([`Map::aliasing_over`](crate::Map::aliasing_over) looks everywhere). It is never more than
+    /// that of a closed form, of which the perspective warp comes with the back-shift of the settings, but for what f32
+    /// needs of the window.
+    ///
+    /// All that is visible counts, seen or not: a near plane in the air draws texels there, as with other warps. From one
+    /// frame to the next the search may end elsewhere; fitted from the map of the frame before
+    /// ([`Focus::fit_from`](crate::Focus::fit_from)) it stays, and costs less.
     Best(Effort),
 }
 
@@ -64,6 +71,16 @@ impl Warp {
 }
 
 /// How long to search for the best matrix: the price of its accuracy.
+///
+/// Worst aliasing over the least that an exhaustive search finds, on outdoor views, median and in 95 % of cases, and the time of
+/// a fit over that of a uniform one, in instructions (`cargo test --test best -- --nocapture`, `cargo bench --bench instructions`):
+///
+/// | | sun | lamp | spot | times as long |
+/// |---|---|---|---|---|
+/// | `ClosedForms` | 1.26, 2.9 | 1.45, 4.0 | 1.34, 2.7 | 3 |
+/// | `Rough` | 1.014, 1.14 | 1.029, 1.13 | 1.031, 1.14 | 5 to 6 |
+/// | `Good` | 1.001, 1.011 | 1.002, 1.013 | 1.002, 1.019 | 12 to 17 |
+/// | `Thorough` | 1.001, 1.006 | 1.001, 1.005 | 1.002, 1.011 | 17 to 26 |
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Effort {
@@ -79,7 +96,8 @@ pub enum Effort {
     Thorough,
 }
 
-/// Where the camera stands whose perspective warps the map; it makes no difference but to [`Warp::Perspective`].
+/// Where the camera stands whose perspective warps the map, for [`Warp::Perspective`], and for [`Warp::Best`], which tries that
+/// warp among others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Shift {
