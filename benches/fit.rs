@@ -8,8 +8,8 @@ mod cases;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use shadowfit::glam::{DMat4, DVec3, Mat4, Vec3};
 use shadowfit::{
-    Aabb, ConvexScene, Cuts, Focus, Form, InputError, Light, Outcome, Plane, Scene, Settings, Slices, Split,
-    classify, fit,
+    Aabb, ConvexScene, Cuts, Effort, Focus, Form, InputError, Light, Outcome, Plane, Scene, Settings, Slices,
+    Split, Warp, classify, fit,
 };
 use std::hint::black_box;
 
@@ -29,6 +29,12 @@ fn steps(criterion: &mut Criterion) -> Result<(), InputError> {
             });
         }
         let whole = focus();
+        let best = Settings::default().with_warp(Warp::Best(Effort::Good));
+        if let Outcome::Map(before) = whole.fit(&best) {
+            group.bench_function("fit, best, from the frame before", |b| {
+                b.iter(|| focus().fit_from(black_box(&before), &best));
+            });
+        }
         if let Outcome::Map(map) = whole.fit(&Settings::default()) {
             group.bench_function("report", |b| b.iter(|| map.report(black_box(&whole))));
             group.bench_function("worst and mean aliasing", |b| b.iter(|| map.aliasing_over(black_box(&whole))));

@@ -112,9 +112,7 @@ impl Proposed {
         let shear = if shear.is_finite() { shear } else { 0.0 };
         Self { frame: Frame { u: DVec2::new(1.0, shear).normalize(), ..self.frame }, ..self }
     }
-}
 
-impl Proposed {
     /// The same with x where y was.
     pub(crate) fn quarter_turned(self) -> Self {
         let Frame { u, v } = self.frame;
@@ -122,7 +120,7 @@ impl Proposed {
     }
 }
 
-/// How far a window's sides may lean: half of it.
+/// Twice the slope that a window's sides may lean by.
 const MAX_SHEAR: f64 = 32.0;
 
 /// w is at least this part of the terms that it is summed from: eight f32 roundings of them are then 1/2000 of w, half
