@@ -114,9 +114,9 @@ impl Focus<'_> {
 
     /// Fits one shadow map where there was another the frame before, of a view and a light that were not much different.
     ///
-    /// Only [`Warp::Best`] makes something of that: it begins where the last search ended, which takes less than half of the
-    /// time, and stays with the same local minimum while there is one and no closed form is better. [`Map::switched`] says
-    /// when it jumped. All else is as by [`Self::fit`].
+    /// Only [`Warp::Best`] makes something of that: it begins where the last search ended, which takes about half of the time,
+    /// and stays with the same local minimum while there is one and no closed form is better. [`Map::switched`] says when it
+    /// jumped. All else is as by [`Self::fit`].
     #[must_use]
     pub fn fit_from(&self, before: &Map, settings: &Settings) -> Outcome {
         self.fit_after(Some(before), settings)
