@@ -32,3 +32,8 @@ pub(crate) fn across(along: DVec3, forward: DVec3, up: DVec3) -> (DVec3, DVec3) 
     let second = second.unwrap_or_else(|| along.any_orthonormal_vector());
     (along.cross(second).normalize(), second)
 }
+
+/// The same for a light's own axis, whatever the view: as an observer has them who looks along the world's −z, y up.
+pub(crate) fn of_light(axis: DVec3) -> (DVec3, DVec3) {
+    across(axis, DVec3::NEG_Z, DVec3::Y)
+}

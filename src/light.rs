@@ -223,7 +223,7 @@ impl Light {
             }
             Shape::Spot { axis, half_angle } => {
                 let (sine, cosine) = angle::sine_cosine(half_angle);
-                let (u, v) = crate::frame::across(axis, DVec3::NEG_Z, DVec3::Y);
+                let (u, v) = crate::frame::of_light(axis);
                 for side in [u, -u, v, -v] {
                     planes.push(Plane::through(axis * sine - side * cosine, position));
                 }
@@ -231,7 +231,7 @@ impl Light {
                 planes.push_slab(axis, position, near * cosine, range);
             }
             Shape::Hemisphere { axis } => {
-                let (u, v) = crate::frame::across(axis, DVec3::NEG_Z, DVec3::Y);
+                let (u, v) = crate::frame::of_light(axis);
                 planes.push_slab(axis, position, 0.0, range);
                 planes.push_slab(u, position, -range, range);
                 planes.push_slab(v, position, -range, range);
@@ -259,7 +259,7 @@ impl Light {
         match self.kind {
             Kind::Local { shape: Shape::Spot { axis, half_angle }, .. } => {
                 let (sine, cosine) = angle::sine_cosine(half_angle);
-                let (u, v) = crate::frame::across(axis, DVec3::NEG_Z, DVec3::Y);
+                let (u, v) = crate::frame::of_light(axis);
                 Some(([u, v, axis], sine / cosine))
             }
             Kind::Local { shape: Shape::CubeFace { face, overlap, .. }, .. } => {

@@ -72,7 +72,7 @@ impl Stable {
 
     fn of_direction(focus: &Focus<'_>, settings: &Settings) -> Result<Self, Refusal> {
         let axis = -focus.light().homogeneous().truncate();
-        let (u_axis, v_axis) = frame::across(axis, DVec3::NEG_Z, DVec3::Y);
+        let (u_axis, v_axis) = frame::of_light(axis);
         let across = |point: DVec3| DVec2::new(u_axis.dot(point), v_axis.dot(point));
         let of_view = focus
             .view()

@@ -335,7 +335,7 @@ impl View {
         let (near, far) = (self.near, self.far);
         let middle = (self.frame_min + self.frame_max) * 0.5;
         let half = (self.frame_max - self.frame_min) * 0.5;
-        let (depth, unit, squared) = match self.lens {
+        let (depth, squared) = match self.lens {
             Lens::Perspective => {
                 let (s2, q, a) = (half.length_squared(), half.dot(middle.abs()), 1.0 + middle.length_squared());
                 let (sum, difference) = (far + near, far - near);
@@ -345,16 +345,14 @@ impl View {
                     let along = (d - depth).abs();
                     a * along * along + 2.0 * q * d * along + s2 * d * d
                 };
-                (depth, depth, most(corner(near), corner(far)))
+                (depth, most(corner(near), corner(far)))
             }
             Lens::Orthographic => {
                 let along = 0.5 * (far - near);
-                (0.5 * (near + far), 1.0, along * along + half.length_squared())
+                (0.5 * (near + far), along * along + half.length_squared())
             }
         };
-        let across = middle * unit;
-        let centre = self.eye + self.forward * depth + self.right * across.x + self.up * across.y;
-        Some((centre, DVec2::splat(squared).sqrt().x))
+        Some((self.centre_at(depth), DVec2::splat(squared).sqrt().x))
     }
 
     /// The camera's 4×4, world → clip, with x, y and z in [−1, 1] whatever convention the view came in.

@@ -87,7 +87,7 @@ impl Focus<'_> {
         }
         let around = |axis: DVec3| {
             // A frame that no camera moves.
-            let (x_axis, y_axis) = frame::across(axis, DVec3::NEG_Z, DVec3::Y);
+            let (x_axis, y_axis) = frame::of_light(axis);
             let (view, light, settings) = (*self.view(), *self.light(), settings.squared());
             let near = light.near();
             Paraboloid { position, x_axis, y_axis, axis, near, far, view, light, settings }.padded(body.positions())

@@ -71,17 +71,9 @@ pub const BETWEEN_LAYERS: &str = include_str!("between_layers.wgsl");
 
 #[cfg(test)]
 mod tests {
+    use super::super::validation::{assert_adds_only_its_own_names, validated};
     use super::*;
-    use naga::front::wgsl;
-    use naga::valid::{Capabilities, ValidationFlags, Validator};
     use std::format;
-
-    fn validated(source: &str) -> naga::Module {
-        let module = wgsl::parse_str(source).unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
-        let result = Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(&module);
-        assert!(result.is_ok(), "{}", result.unwrap_err().emit_to_string(source));
-        module
-    }
 
     #[test]
     fn the_functions_are_valid_and_theirs_are_the_only_names() {
@@ -89,11 +81,7 @@ mod tests {
             let texts = [PROJECT, map, FILTERS, VIRTUAL_SAMPLES, BETWEEN_LAYERS];
             for count in 1..=texts.len() {
                 let text = texts[..count].concat();
-                let module = validated(&text);
-                assert!(module.global_variables.is_empty() && module.entry_points.is_empty());
-                let functions = module.functions.iter().filter_map(|(_, function)| function.name.as_ref());
-                let types = module.types.iter().filter_map(|(_, of)| of.name.as_ref());
-                assert!(functions.chain(types).all(|name| name.starts_with("shadowfit_")));
+                assert_adds_only_its_own_names(&validated(&text));
                 // Naga does not look for uniform control flow, which a bare `textureSampleCompare` needs.
                 assert!(!text.contains("textureSampleCompare("));
             }

@@ -6,6 +6,8 @@
 
 mod frustum;
 mod slices;
+#[cfg(test)]
+mod validation;
 
 pub use frustum::{BETWEEN_LAYERS, FILTERS, MAP, MAP_ARRAY, PROJECT, VIRTUAL_SAMPLES};
 pub use slices::SLICES;

@@ -45,29 +45,17 @@ pub const SLICES: &str = include_str!("slices.wgsl");
 
 #[cfg(test)]
 mod tests {
+    use super::super::validation::{assert_adds_only_its_own_names, validated};
     use super::super::{FILTERS, MAP, MAP_ARRAY, PROJECT, SLICES};
     use crate::SliceUniform;
     use core::mem::offset_of;
-    use naga::front::wgsl;
-    use naga::valid::{Capabilities, ValidationFlags, Validator};
-    use naga::{Module, TypeInner};
+    use naga::TypeInner;
     use std::format;
     use std::vec::Vec;
 
-    fn validated(source: &str) -> Module {
-        let module = wgsl::parse_str(source).unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
-        let result = Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(&module);
-        assert!(result.is_ok(), "{}", result.unwrap_err().emit_to_string(source));
-        module
-    }
-
     #[test]
     fn the_functions_are_valid_and_theirs_are_the_only_names() {
-        let module = validated(SLICES);
-        assert!(module.global_variables.is_empty() && module.entry_points.is_empty());
-        let functions = module.functions.iter().filter_map(|(_, function)| function.name.as_ref());
-        let types = module.types.iter().filter_map(|(_, of)| of.name.as_ref());
-        assert!(functions.chain(types).all(|name| name.starts_with("shadowfit_")));
+        assert_adds_only_its_own_names(&validated(SLICES));
     }
 
     /// The shader's struct lies in memory as the one that is uploaded.
