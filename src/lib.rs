@@ -20,7 +20,7 @@
 //! and why.
 //!
 //! ```
-//! use shadowfit::{Effort, Focus, Form, Light, Outcome, Scene, Settings, View, Warp, classify, fit};
+//! use shadowfit::{Focus, Form, Light, Outcome, Scene, Settings, View, classify, fit};
 //!
 //! # fn main() -> Result<(), shadowfit::InputError> {
 //! let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 500.0)?;
@@ -39,7 +39,7 @@
 //! let focus = Focus::new(&view, &sun, &scene);
 //! let body = focus.body(Form::Tight);
 //! println!("draw the tree: {}", body.meets_box((3.0, 0.0, -9.0), (5.0, 4.0, -7.0)));
-//! let settings = Settings::new(2048, 1080)?.with_warp(Warp::Best(Effort::Good));
+//! let settings = Settings::new(4096, 1440)?; // texels and pixels; the rest as in the default
 //! if let Some(map) = focus.fit(&settings).map() {
 //!     let aliasing = map.report(&focus).aliasing;
 //!     println!("a texel is at worst {aliasing} pixels long, and could be {}", focus.limit(&settings));

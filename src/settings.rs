@@ -8,7 +8,7 @@ use glam::DVec2;
 /// What the map's texels are spread by: the covector c that becomes w.
 ///
 /// A warp that cannot be made leaves the uniform map, and the map says why ([`Map::refusal`](crate::Map::refusal)).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Warp {
     /// No warp: a parallel projection for a directional light, a perspective one from any other.
@@ -16,7 +16,6 @@ pub enum Warp {
     /// The camera's perspective (Stamminger & Drettakis 2002): texels shrink towards the eye, from the view's near plane
     /// on. A near plane in the air before all that is seen draws them there, and a uniform map may then be better: narrow
     /// the view to what is seen ([`View::narrowed`](crate::View::narrowed)).
-    #[default]
     Perspective,
     /// The light-space perspective (Wimmer, Scherzer & Purgathofer 2004): the warp runs across the light, along the view as
     /// the light sees it, and is as strong as their formula for n says. It fades as the light turns into the view, and is
@@ -60,6 +59,13 @@ pub enum Warp {
     /// frame to the next the search may end elsewhere; fitted from the map of the frame before
     /// ([`Focus::fit_from`](crate::Focus::fit_from)) it stays, and costs less.
     Best(Effort),
+}
+
+impl Default for Warp {
+    /// The best single matrix, by a search of the usual effort.
+    fn default() -> Self {
+        Self::Best(Effort::default())
+    }
 }
 
 #[cfg(feature = "std")]
@@ -127,8 +133,8 @@ pub enum Origin {
     Eye,
 }
 
-/// How a fit is made. The default is a warped map of 2048² texels for an image 1080 pixels high, world space, wgpu's
-/// clip space.
+/// How a fit is made. The default is the best single matrix that is found, in a map of 2048² texels for an image 1080
+/// pixels high, world space, wgpu's clip space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "stored::Settings"))]
 pub struct Settings {

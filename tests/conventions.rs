@@ -205,7 +205,7 @@ fn one_focus_body_in_every_convention() {
                     }
                 }
                 let map = |view: &View| {
-                    let outcome = fit(view, light, &scene, &Settings::default());
+                    let outcome = fit(view, light, &scene, &Settings::default().with_warp(Warp::Perspective));
                     *outcome.map().expect("a map")
                 };
                 assert_relative_eq!(map(view).warp_ratio(), map(&views[0]).warp_ratio(), max_relative = 1e-9);

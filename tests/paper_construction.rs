@@ -88,7 +88,7 @@ impl Case {
         assert_eq!(classify(&view, &light).kind, kind);
 
         let focus = Focus::new(&view, &light, &scene);
-        let settings = Settings::default().with_shift(shift);
+        let settings = Settings::default().with_warp(Warp::Perspective).with_shift(shift);
         let Outcome::Map(map) = focus.fit(&settings) else {
             return None;
         };

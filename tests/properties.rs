@@ -354,7 +354,7 @@ fn casters_of_a_list_that_are_all_off_to_one_side() {
     let scene = Scene::new(&casters, &receivers).expect("a legal scene");
     let (view, light) = (view.expect("a legal view"), light.expect("a legal light"));
     for origin in [Origin::World, Origin::Eye] {
-        let settings = Settings::default().with_shift(Shift::None).with_origin(origin);
+        let settings = Settings::default().with_warp(Warp::Perspective).with_shift(Shift::None).with_origin(origin);
         exercise(&view, &light, &scene, &settings);
         let map = *Focus::new(&view, &light, &scene).fit(&settings).map().expect("one map does");
         assert_eq!(map.depth().near, f64::INFINITY);

@@ -51,7 +51,7 @@ fn classes_and_warps() {
     let mut text = String::new();
     for light in lights() {
         let kind = classify(&view(), &light).kind;
-        let base = Settings::default();
+        let base = Settings::default().with_warp(Warp::Perspective);
         let uniform = fitted(&light, base.with_warp(Warp::Uniform));
         text += &format!("{kind}, uniform\n{}\n\n", table(&uniform.matrix()));
         for shift in [Shift::None, Shift::Back(Form::Paper)] {
@@ -71,7 +71,7 @@ fn other_warps() {
     let mut text = String::new();
     for light in lights() {
         let kind = classify(&view(), &light).kind;
-        for warp in [Warp::LightSpace, Warp::Trapezoidal] {
+        for warp in [Warp::LightSpace, Warp::Trapezoidal, Warp::default()] {
             let map = fitted(&light, Settings::default().with_warp(warp));
             let refused = map.refusal().map_or_else(String::new, |why| format!(", refused: {why}"));
             let ratio = number(map.warp_ratio() as f32);
@@ -84,7 +84,7 @@ fn other_warps() {
 #[test]
 fn conventions() {
     let sun = lights()[4];
-    let base = Settings::default().with_shift(Shift::None);
+    let base = Settings::default().with_warp(Warp::Perspective).with_shift(Shift::None);
     let matrix = |clip| fitted(&sun, base.with_clip(clip)).matrix();
     let tables = [
         ("reversed depth", matrix(ClipSpace::WGPU.reversed())),

@@ -23,7 +23,7 @@ pub(crate) fn lights() -> Result<[(&'static str, Light); 3], InputError> {
 
 /// The maps that are fitted.
 pub(crate) fn settings() -> [(&'static str, Settings); 10] {
-    let settings = Settings::default().with_shift(Shift::Back(Form::Paper));
+    let settings = Settings::default().with_warp(Warp::Perspective).with_shift(Shift::Back(Form::Paper));
     [
         ("uniform", settings.with_warp(Warp::Uniform)),
         ("psm", settings.with_shift(Shift::None)),

@@ -10,7 +10,7 @@ use shadowfit::{Body, CubeFace, Empty, Focus, Form, Light, Map, Outcome, Parabol
 
 use crate::cut::{Cut, Cutting};
 use crate::fitting::{NoMap, map_or_reason};
-use crate::gpu::{MapDraw, MapPass, ShadowMaps};
+use crate::gpu::{Geometry, MapDraw, MapPass, ShadowMaps};
 use crate::layout::Layout;
 use crate::run::Options;
 use crate::scene::{Mesh, Object};
@@ -244,18 +244,37 @@ impl FittedMaps {
     ///
     /// When the card refuses.
     pub fn draw(&self, stage: &Stage<'_>) -> Result<ShadowMaps> {
-        let casters: Vec<_> = self.maps.iter().flatten().map(|map| self.casters(stage, map)).collect();
-        let mut casters = casters.iter();
-        let draws: Vec<_> = self
-            .maps
-            .iter()
-            .map(|map| {
-                let FittedMap { map, pass, .. } = map.as_ref()?;
-                Some(MapDraw { map: *map, casters: casters.next()?, pass: *pass })
-            })
-            .collect();
-        let geometry = self.cut.as_ref().map_or(&stage.geometry, |cut| &cut.geometry);
-        ShadowMaps::draw(stage.gpu, geometry, &self.split, &draws)
+        let casters = self.casters_of_all(stage);
+        ShadowMaps::draw(stage.gpu, self.geometry(stage), &self.split, &self.draws(&casters))
+    }
+
+    /// Draws the casters again, where they were drawn before.
+    ///
+    /// # Errors
+    ///
+    /// When the card refuses.
+    pub fn draw_again(&self, stage: &Stage<'_>, shadow_maps: &mut ShadowMaps) -> Result<()> {
+        let casters = self.casters_of_all(stage);
+        shadow_maps.draw_again(stage.gpu, self.geometry(stage), &self.draws(&casters))
+    }
+
+    /// What is drawn for each part.
+    fn draws<'a>(&self, casters: &'a [Vec<Range<u32>>]) -> Vec<Option<MapDraw<'a>>> {
+        let of = |(map, casters): (&Option<FittedMap>, &'a Vec<_>)| {
+            map.as_ref().map(|FittedMap { map, pass, .. }| MapDraw { map: *map, casters, pass: *pass })
+        };
+        self.maps.iter().zip(casters).map(of).collect()
+    }
+
+    /// The triangles of what is drawn for each part.
+    fn casters_of_all(&self, stage: &Stage<'_>) -> Vec<Vec<Range<u32>>> {
+        let of = |map: &Option<FittedMap>| map.as_ref().map(|map| self.casters(stage, map)).unwrap_or_default();
+        self.maps.iter().map(of).collect()
+    }
+
+    /// What is drawn of, on the card.
+    fn geometry<'a>(&'a self, stage: &'a Stage<'a>) -> &'a Geometry {
+        self.cut.as_ref().map_or(&stage.geometry, |cut| &cut.geometry)
     }
 
     /// The triangles of what is drawn into a map.

@@ -18,6 +18,7 @@
 //! | [`split`], [`slicing`] | which of a light's maps answers for a point, and the view cut into slices |
 //! | [`layout`], [`cut`] | the kinds of maps, and triangles cut for those that bend lines |
 //! | [`technique`], [`fitted_maps`], [`run`] | one light through one kind of map: fitted, culled, drawn, tested, judged |
+//! | [`frames`] | frame after frame of the same maps, to be timed |
 //! | [`prediction`] | what the fit says of the maps beforehand |
 //! | [`report`], [`table`], [`check_table`] | what is written and printed of it |
 //! | [`picture`] | what is written as PNG |
@@ -47,6 +48,7 @@ pub mod draw;
 pub mod fitted_maps;
 pub mod fitting;
 pub mod fitting_table;
+pub mod frames;
 pub mod framing;
 pub mod gpu;
 pub(crate) mod help;

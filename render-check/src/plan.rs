@@ -74,7 +74,7 @@ pub struct BudgetArgs {
     pub filter: shadowfit::Filter,
 
     /// What maps may be warped by, where that is worth it
-    #[arg(long, value_enum, default_value_t = Technique::Psm)]
+    #[arg(long, value_enum, default_value_t = Technique::Best)]
     pub warp: Technique,
 
     /// What is fine enough: the longest side of a texel over that of a pixel

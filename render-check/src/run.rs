@@ -11,7 +11,8 @@ use crate::args::ClipArg;
 use crate::cut::Cutting;
 use crate::fitted_maps::{Drawn, FittedMaps};
 use crate::fitting::{NoMap, median_time};
-use crate::gpu::{Bias, Filter, MapPass, Points, ShadowMaps, Shadows, shadow_test};
+use crate::frames::{Frame, Frames};
+use crate::gpu::{Bias, Filter, MapPass, Points, Shadows};
 use crate::layout::Layout;
 use crate::prediction::Prediction;
 use crate::slicing::Slicing;
@@ -179,19 +180,15 @@ pub fn run_fitted(
     fitted: FittedMaps,
     fit_time: Duration,
 ) -> Result<MapRun> {
-    let frame = || -> Result<(ShadowMaps, Shadows)> {
-        let shadow_maps = fitted.draw(stage)?;
-        let shadows = shadow_test(stage.gpu, &stage.surfaces, &shadow_maps, options.filter)?;
-        Ok((shadow_maps, shadows))
-    };
-    let (shadow_maps, Shadows { lit, used_plane, time }) = frame()?;
-    let (mut shadow_map_times, mut shadow_test_times) = (vec![shadow_maps.time], vec![time]);
+    let mut frames = Frames::new(stage, &fitted, options.filter)?;
+    let Frame { shadow_maps, shadows: Shadows { lit, used_plane, time } } = frames.draw()?;
+    let (mut shadow_map_times, mut shadow_test_times) = (vec![shadow_maps], vec![time]);
     for _ in 1..options.frames {
-        let (shadow_maps, shadows) = frame()?;
-        shadow_map_times.push(shadow_maps.time);
-        shadow_test_times.push(shadows.time);
+        let frame = frames.draw()?;
+        shadow_map_times.push(frame.shadow_maps);
+        shadow_test_times.push(frame.shadows.time);
     }
-    let depths = shadow_maps.depths(stage.gpu)?;
+    let depths = frames.depths()?;
     let verdict = judged(stage, light, options, &fitted, &depths, &lit)?;
     let times = Times {
         fit_us: fit_time.as_secs_f64() * 1e6,

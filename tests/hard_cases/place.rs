@@ -1,7 +1,7 @@
 //! Where maps put points, and how far rounding can carry them.
 
 use shadowfit::glam::{DVec3, Vec4};
-use shadowfit::{Body, ClipSpace, Focus, Light, Map, Origin, Outcome, Scene, Settings, Shift, View};
+use shadowfit::{Body, ClipSpace, Focus, Light, Map, Origin, Outcome, Scene, Settings, Shift, View, Warp};
 
 use crate::tables::arithmetic::{Big, Real};
 use crate::tables::linear::{V4, dot, homogeneous};
@@ -29,9 +29,9 @@ pub(crate) fn lamp(position: DVec3) -> Light {
     Light::point(position, 0.125, f64::INFINITY).expect("sound")
 }
 
-/// Without a back-shift, so that only the light and the view decide on the warp.
+/// The perspective warp without a back-shift, so that only the light and the view decide on it.
 pub(crate) fn settings() -> Settings {
-    Settings::default().with_shift(Shift::None)
+    Settings::default().with_warp(Warp::Perspective).with_shift(Shift::None)
 }
 
 pub(crate) fn map(view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) -> Map {

@@ -4,9 +4,9 @@ use std::cmp::Ordering;
 
 use dashu_int::IBig;
 
-use crate::exact::{integers, ratio};
-use crate::homogeneous::{ExactPlane, ExactPoint, Homogeneous};
-use crate::hull::homogeneous_vertices;
+use super::exact::{integers, ratio};
+use super::homogeneous::{ExactPlane, ExactPoint, Homogeneous};
+use super::hull::homogeneous_vertices;
 
 /// A bounded convex polyhedron, possibly flat, a segment, a point or empty.
 pub(crate) struct Body {

@@ -9,8 +9,8 @@ use std::cmp::Ordering;
 
 use dashu_int::IBig;
 
-use crate::homogeneous::Homogeneous;
-use crate::scalar::{Bounded, cross, dot, minors};
+use super::homogeneous::Homogeneous;
+use super::scalar::{Bounded, cross, dot, minors};
 
 /// A generator of the cone of all x with h · x ≥ 0 for every given h.
 pub(crate) struct Ray {

@@ -6,9 +6,9 @@ use std::cmp::Ordering;
 use dashu_int::IBig;
 use dashu_int::ops::UnsignedAbs;
 
-use crate::body::Body;
-use crate::exact::{ratio, sqrt_ratio};
-use crate::homogeneous::{ExactPlane, ExactPoint, Homogeneous};
+use super::body::Body;
+use super::exact::{ratio, sqrt_ratio};
+use super::homogeneous::{ExactPlane, ExactPoint, Homogeneous};
 
 /// Slack of the floating-point distance to a segment, in units of the size of the body seen from
 /// the point. Its error is a few dozen ulps of that size: the end points are correctly

@@ -5,8 +5,8 @@ use std::cmp::Ordering;
 use dashu_int::ops::{BitTest, Gcd};
 use dashu_int::{IBig, UBig};
 
-use crate::exact::{integers, leading, power_of_two};
-use crate::scalar::{Bounded, dot};
+use super::exact::{integers, leading, power_of_two};
+use super::scalar::{Bounded, dot};
 
 /// The half-space n·x + offset ≥ 0, as `[nx, ny, nz, offset]` up to a positive factor.
 pub(crate) type ExactPlane = Homogeneous;

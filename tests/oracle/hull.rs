@@ -1,7 +1,7 @@
 //! The half-spaces of conv(V ∪ {l}), from the vertices of V.
 
-use crate::cone::{Ray, generators};
-use crate::homogeneous::{ExactPlane, ExactPoint, Homogeneous};
+use super::cone::{Ray, generators};
+use super::homogeneous::{ExactPlane, ExactPoint, Homogeneous};
 
 /// The half-spaces of the closed convex hull of the view V and the light l.
 ///

@@ -4,7 +4,7 @@
 use super::arithmetic::Real;
 use super::linear::{V3, V4, cross, dot, through, times, unit, vector};
 use shadowfit::glam::DVec3;
-use shadowfit::{Focus, Light, Map, Origin, Scene, Settings, Shift, View};
+use shadowfit::{Focus, Light, Map, Origin, Scene, Settings, Shift, View, Warp};
 
 /// A symmetric perspective camera.
 #[derive(Clone, Copy, Debug)]
@@ -101,9 +101,9 @@ impl Setup {
         Self { camera, lamp, min: DVec3::splat(-256.0), max: DVec3::splat(256.0), origin: Origin::World }
     }
 
-    /// The camera's own place, without a back-shift: what the textbook has too.
+    /// The perspective warp of the camera in its own place, without a back-shift: what the textbook has too.
     pub(crate) fn settings(&self) -> Settings {
-        Settings::default().with_shift(Shift::None).with_origin(self.origin)
+        Settings::default().with_warp(Warp::Perspective).with_shift(Shift::None).with_origin(self.origin)
     }
 
     pub(crate) fn scene(&self) -> Scene<'static> {

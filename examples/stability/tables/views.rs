@@ -6,7 +6,7 @@ use super::measure::figure;
 use super::setup::{Lamp, Setup};
 use super::textbook::textbook;
 use shadowfit::glam::{DMat4, DVec3, DVec4, Mat4, Vec4};
-use shadowfit::{ClipSpace, Focus, Form, Origin, Scene, Settings, View};
+use shadowfit::{ClipSpace, Focus, Form, Origin, Scene, Settings, View, Warp};
 
 const COLUMNS: [&str; 4] = ["textbook f32", "textbook f64", "ours f64", "ours f32 upload"];
 
@@ -92,7 +92,8 @@ pub(crate) fn one_camera_in_every_convention() -> Table {
         let near = 0.3;
         let all = conventions(near, far);
         let first = Focus::new(&all[0].1, &light, &scene);
-        let map = |focus: &Focus<'_>| *focus.fit(&Settings::default()).map().expect("one map does");
+        let settings = Settings::default().with_warp(Warp::Perspective);
+        let map = |focus: &Focus<'_>| *focus.fit(&settings).map().expect("one map does");
         for (name, view) in &all {
             let focus = Focus::new(view, &light, &scene);
             let of_far = if far.is_finite() { (view.far() / all[0].1.far() - 1.0).abs() } else { 0.0 };

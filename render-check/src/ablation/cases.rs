@@ -1,7 +1,7 @@
 //! The cases: a light before a built-in scene for each effect, where a plan leaves it out and where it asks for it.
 
 use anyhow::{Context, Result};
-use shadowfit::{Budget, Filter, Origin, Settings, View};
+use shadowfit::{Budget, Filter, Origin, Settings, View, Warp};
 
 use super::effect::Effect;
 use crate::light::LightSpec;
@@ -47,7 +47,9 @@ impl Case {
 
     /// The budget.
     pub(super) fn budget(&self, image_height: u32) -> Result<Budget> {
-        let settings = Settings::new(self.size, image_height)?.with_origin(Origin::Eye);
+        // Only the camera of that warp is moved back by a plan.
+        let warp = if self.effect == Effect::BackShift { Warp::Perspective } else { Warp::default() };
+        let settings = Settings::new(self.size, image_height)?.with_warp(warp).with_origin(Origin::Eye);
         Ok(Budget::new(settings).with_filter(self.filter))
     }
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 pub enum Effect {
     /// Any map at all.
     Map,
-    /// The perspective warp, against a uniform map of the same size.
+    /// The best warp, against a uniform map of the same size.
     Warp,
     /// The warp's camera moved back, against one that stays.
     BackShift,

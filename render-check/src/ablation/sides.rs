@@ -39,7 +39,7 @@ impl Sides {
             Effect::Warp => {
                 ensure!(setup.is(Kind::Uniform) || setup.is(Kind::Warped), "there is no single frustum");
                 let is_warped = setup.is(Kind::Warped);
-                let warp = if is_warped { Warp::Uniform } else { Warp::Perspective };
+                let warp = if is_warped { Warp::Uniform } else { Warp::default() };
                 let other = setup.refitted(&planned, view, |settings| {
                     Ok(settings.with_warp(warp).with_shift(Shift::default()))
                 })?;

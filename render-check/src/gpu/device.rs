@@ -1,9 +1,14 @@
 //! The adapter, and what everything on it needs.
 
+use std::collections::HashMap;
+use std::sync::Mutex;
+
 use anyhow::{Context, Result, anyhow};
 use pollster::block_on;
 use shadowfit::glam::Mat4;
 use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
+
+use super::pass::PipelineKey;
 
 /// Said where there is no adapter.
 const NO_ADAPTER: &str = "no graphics adapter was found: install a Vulkan driver (on Debian, `apt-get install \
@@ -14,6 +19,9 @@ pub struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     name: String,
+    is_software: bool,
+    /// The pipelines that were built so far.
+    pub(super) pipelines: Mutex<HashMap<PipelineKey, wgpu::RenderPipeline>>,
     /// Nanoseconds in one tick of a timestamp, where there are timestamps.
     pub(super) tick: Option<f64>,
 }
@@ -53,13 +61,21 @@ impl Gpu {
             .await
             .with_context(|| format!("the graphics adapter '{}' cannot be used", info.name))?;
         let tick = (!timestamps.is_empty()).then(|| f64::from(queue.get_timestamp_period()));
-        Ok(Self { device, queue, name: format!("{} ({})", info.name, info.backend), tick })
+        let (name, is_software) =
+            (format!("{} ({})", info.name, info.backend), info.device_type == wgpu::DeviceType::Cpu);
+        Ok(Self { device, queue, name, is_software, pipelines: Mutex::default(), tick })
     }
 
     /// What the adapter calls itself, and the API it is reached through.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Whether it is a driver that draws on the processor, whose times then are the processor's.
+    #[must_use]
+    pub fn is_software(&self) -> bool {
+        self.is_software
     }
 
     /// The largest side of a texture.

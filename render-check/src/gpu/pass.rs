@@ -1,6 +1,7 @@
 //! One pass: draw calls into targets, and how long the card took for them.
 
 use std::ops::Range;
+use std::sync::PoisonError;
 use std::time::Duration;
 
 use anyhow::Result;
@@ -19,8 +20,40 @@ pub(super) struct PipelineKind<'a> {
     pub(super) targets: &'a [wgpu::TextureFormat],
 }
 
+/// All that a pipeline is made of, to know it by.
+#[derive(PartialEq, Eq, Hash)]
+pub(super) struct PipelineKey {
+    shader: String,
+    /// The bits of the numbers.
+    constants: Vec<(String, u64)>,
+    takes_geometry: bool,
+    has_fragments: bool,
+    primitive: wgpu::PrimitiveState,
+    depth: Option<wgpu::DepthStencilState>,
+    targets: Vec<wgpu::TextureFormat>,
+}
+
 impl PipelineKind<'_> {
+    /// The pipeline, made when it is first asked for. A driver in software compiles what is new while it draws, which would be
+    /// part of the pass's time in every frame.
     pub(super) fn build(&self, gpu: &Gpu) -> wgpu::RenderPipeline {
+        let mut pipelines = gpu.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+        pipelines.entry(self.key()).or_insert_with(|| self.build_anew(gpu)).clone()
+    }
+
+    fn key(&self) -> PipelineKey {
+        PipelineKey {
+            shader: self.shader.to_owned(),
+            constants: self.constants.iter().map(|(name, value)| ((*name).to_owned(), value.to_bits())).collect(),
+            takes_geometry: self.takes_geometry,
+            has_fragments: self.has_fragments,
+            primitive: self.primitive,
+            depth: self.depth.clone(),
+            targets: self.targets.to_vec(),
+        }
+    }
+
+    fn build_anew(&self, gpu: &Gpu) -> wgpu::RenderPipeline {
         let module = &gpu.shader(self.shader);
         let compilation_options =
             wgpu::PipelineCompilationOptions { constants: self.constants, ..Default::default() };

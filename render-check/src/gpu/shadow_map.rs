@@ -73,9 +73,10 @@ pub struct ShadowMaps {
     /// The map in each layer, and what receivers are to be tested with.
     pub(super) maps: Vec<(Layout, Offset)>,
     pub(super) format: DepthFormat,
+    texture_format: wgpu::TextureFormat,
     /// `Split` of `shadow_test.wgsl`, row by row.
     pub(super) split: Vec<Vec4>,
-    /// How long the card took for all of them, where it has a clock.
+    /// How long the card took for all of them the last time that they were drawn, where it has a clock.
     pub time: Option<Duration>,
 }
 
@@ -111,32 +112,51 @@ impl ShadowMaps {
             };
             let array = || LayerArray::new(gpu, size, drawn.len() as u32, format);
             let (nearest, behind) = (array(), (first.pass.faces == Faces::Layers).then(array));
-            let mut time = Some(Duration::ZERO);
-            for (index, draw) in drawn.iter().enumerate() {
-                let target = &nearest.one_by_one[index];
-                let took = draw_layer(gpu, geometry, draw, target, format, None)?;
-                let again = behind.as_ref().map(|layers| &layers.one_by_one[index]);
-                let took_again = match again {
-                    Some(second) => draw_layer(gpu, geometry, draw, second, format, Some(target))?,
-                    None => Some(Duration::ZERO),
-                };
-                time = time.zip(took).zip(took_again).map(|((sum, took), again)| sum + took + again);
-            }
             let receiver = |draw: &MapDraw<'_>| {
                 let offset = Offset::relative(draw.pass.relative).and_then(|it| it.and_depth(draw.pass.receiver));
                 let offset = offset.context("receivers cannot be moved so")?;
                 Ok((draw.map, offset))
             };
-            Ok(Self {
+            let mut shadow_maps = Self {
                 view: nearest.all,
                 split: split_rows(split, maps, geometry.origin()),
                 layers: nearest.one_by_one,
                 behind,
+                texture_format: format,
                 format: first.pass.format,
                 maps: drawn.iter().map(|draw| receiver(draw)).collect::<Result<_>>()?,
-                time,
-            })
+                time: None,
+            };
+            shadow_maps.draw_layers(gpu, geometry, maps)?;
+            Ok(shadow_maps)
         })
+    }
+
+    /// Draws the same maps again into the same memory, as a renderer does frame after frame.
+    ///
+    /// # Errors
+    ///
+    /// When there are more or fewer maps than before, or the card refuses.
+    pub fn draw_again(&mut self, gpu: &Gpu, geometry: &Geometry, maps: &[Option<MapDraw<'_>>]) -> Result<()> {
+        gpu.guarded("the shadow map", || self.draw_layers(gpu, geometry, maps))
+    }
+
+    fn draw_layers(&mut self, gpu: &Gpu, geometry: &Geometry, maps: &[Option<MapDraw<'_>>]) -> Result<()> {
+        let (drawn, layers) = (maps.iter().flatten().count(), self.layers.len());
+        ensure!(drawn == layers, "{drawn} maps do not go into {layers} layers");
+        let mut time = Some(Duration::ZERO);
+        for (index, draw) in maps.iter().flatten().enumerate() {
+            let target = &self.layers[index];
+            let took = draw_layer(gpu, geometry, draw, target, self.texture_format, None)?;
+            let again = self.behind.as_ref().map(|layers| &layers.one_by_one[index]);
+            let took_again = match again {
+                Some(second) => draw_layer(gpu, geometry, draw, second, self.texture_format, Some(target))?,
+                None => Some(Duration::ZERO),
+            };
+            time = time.zip(took).zip(took_again).map(|((sum, took), again)| sum + took + again);
+        }
+        self.time = time;
+        Ok(())
     }
 
     /// The depths of each map, of its first layer, as they are stored, row by row from the top of the map (y = 1 in wgpu's
