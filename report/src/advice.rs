@@ -150,6 +150,12 @@ fn recommended(worths: &[Worth]) -> Option<&Worth> {
 fn free(worths: &[Worth], middle_size: u32) -> Option<String> {
     let best = recommended(worths)?;
     let uniform = worths.iter().find(|it| it.technique == Technique::Uniform)?;
+    if best.wrong() >= uniform.wrong() {
+        return Some(format!(
+            "Nothing is free: in the time of a uniform map of {middle_size}² and its test, '{}' has no fewer wrong pixels.",
+            best.warp
+        ));
+    }
     Some(format!(
         "Up to here accuracy is free: in the time of a uniform map of {middle_size}² and its test, '{}' has {} of its wrong pixels where maps \
          are fitted to what is seen, and {} where they are not. On random views its worst aliasing is {} times the least that any spread of \
@@ -356,6 +362,16 @@ mod tests {
         worths[3].over_uniform_90 = 0.32;
         worths[4].in_same_time_whole = 0.85;
         assert_eq!(recommended(&worths), Technique::Best);
+    }
+
+    #[test]
+    fn only_what_is_better_in_the_same_time_is_free() {
+        let found = |wrong| {
+            let worths = [worth(Technique::Uniform, 1.0, 1.0, 1.0), worth(Technique::Best, 25.0, wrong, 0.3)];
+            free(&worths, 1024).expect("both are there")
+        };
+        assert!(found(0.75).contains("accuracy is free") && found(0.75).contains("75.0 %"), "{}", found(0.75));
+        assert!(found(1.02).contains("Nothing is free"), "{}", found(1.02));
     }
 
     #[test]
