@@ -6,7 +6,7 @@ use render_check::technique::Technique;
 use serde::Serialize;
 use shadowfit::{Budget, Settings};
 
-use crate::chapter::{Chapter, Figure, Part, Raw, Table};
+use crate::chapter::{Chapter, Figure, Part, Raw, Table, percent};
 use crate::front::front;
 use crate::map::cases::{ALL_WARPS, FILTERS, FORMATS};
 use crate::map::record::format_name;
@@ -125,15 +125,8 @@ fn worths(measured: &Measured) -> Vec<Worth> {
 
 /// The power of a map's sides that the time of a frame's shadows goes with.
 fn growth_with_size(measured: &Measured) -> f64 {
-    let warps = measured.warps(true);
-    let best = warps.iter().filter(|it| (it.contender.technique, it.contender.slices) == (Technique::Best, 1));
-    exponent(&best.map(|it| (f64::from(it.contender.size), it.time_ratio)).collect::<Vec<_>>())
-}
-
-/// The power of time that wrong pixels go with along the front of all maps that are fitted to what is seen.
-fn slope(measured: &Measured) -> f64 {
-    let points: Vec<(f64, f64)> = measured.warps(true).iter().map(|it| (it.time_ratio, it.wrong_ratio)).collect();
-    exponent(&front(&points).into_iter().map(|index| points[index]).collect::<Vec<_>>())
+    let best = measured.sizes(true, Technique::Best, 1);
+    exponent(&best.iter().map(|it| (f64::from(it.contender.size), it.time_ratio)).collect::<Vec<_>>())
 }
 
 /// The recommended warp: the one that is fitted most quickly of the good ones or, where none is good, the one that is nearest
@@ -170,7 +163,7 @@ fn free(worths: &[Worth], middle_size: u32) -> Option<String> {
 
 /// What accuracy costs beyond.
 fn price(measured: &Measured) -> Option<String> {
-    let power = slope(measured);
+    let power = measured.power_along_front();
     (power < 0.0).then(|| {
         format!(
             "Past here each halving of wrong pixels costs {} times the time: along the front they go with time to the power of {}.",
@@ -263,10 +256,6 @@ fn filter(measured: &Measured) -> Option<Advice> {
         default: default.to_string(),
         evidence: format!("Wrong pixels, and the shadow test's time: {}.", others.join(", ")),
     })
-}
-
-fn percent(part: f64) -> String {
-    format!("{} %", Figure(100.0 * part))
 }
 
 fn settings(lines: &[Advice]) -> Table {

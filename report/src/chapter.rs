@@ -147,6 +147,12 @@ impl fmt::Display for Figure {
     }
 }
 
+/// A part of something in percent, as the report writes it.
+#[must_use]
+pub fn percent(part: f64) -> String {
+    format!("{} %", Figure(100.0 * part))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

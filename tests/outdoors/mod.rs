@@ -8,9 +8,12 @@ use shadowfit::glam::DVec3;
 use shadowfit::{Light, Scene, View};
 use std::f64::consts::TAU;
 
-/// A town of 400 m, seen as a box.
+/// The least and the largest coordinates of a town of 400 m.
+pub(crate) const TOWN: ([f64; 3], [f64; 3]) = ([-200.0, 0.0, -200.0], [200.0, 15.0, 200.0]);
+
+/// The town, seen as a box.
 pub(crate) fn town() -> Scene<'static> {
-    Scene::from_box((-200.0, 0.0, -200.0), (200.0, 15.0, 200.0)).expect("a legal box")
+    Scene::from_box(TOWN.0, TOWN.1).expect("a legal box")
 }
 
 /// A view of somebody who looks around, from no higher than a second floor.
@@ -39,6 +42,15 @@ pub(crate) enum Kind {
 
 impl Kind {
     pub(crate) const ALL: [Self; 3] = [Self::Sun, Self::Lamp, Self::Spot];
+
+    /// What it is called.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Sun => "sun",
+            Self::Lamp => "lamp",
+            Self::Spot => "spot",
+        }
+    }
 
     /// A light of this kind, a lamp or a spot 10 m to 300 m away from somewhere in the middle of the town.
     pub(crate) fn light(self, random: &mut StdRng) -> Light {

@@ -118,11 +118,11 @@ impl Chart {
 }
 
 /// The axes across a direction: see the crate's `frame`.
-fn across(along: &V3<Big>, forward: &V3<Big>, up: &V3<Big>) -> (V3<Big>, V3<Big>) {
+pub(crate) fn across<T: Real>(along: &V3<T>, forward: &V3<T>, up: &V3<T>) -> (V3<T>, V3<T>) {
     let seen = sub(forward, &times(along, &dot(forward, along)));
     let sum = sub(along, up);
-    let turned = sub(forward, &times(&sum, &(big(2.0) * dot(forward, &sum) / dot(&sum, &sum))));
-    let mixed = add(&seen, &times(&turned, &(big(1.0) - length(&seen)).most(big(0.0))));
+    let turned = sub(forward, &times(&sum, &(T::of(2.0) * dot(forward, &sum) / dot(&sum, &sum))));
+    let mixed = add(&seen, &times(&turned, &(T::of(1.0) - length(&seen)).most(T::of(0.0))));
     let second = unit(&sub(&mixed, &times(along, &dot(&mixed, along))));
     (unit(&cross(along, &second)), second)
 }

@@ -53,7 +53,7 @@ fn corners<T: Real>(view: &M4<T>) -> Vec<V3<T>> {
 }
 
 /// The least and the largest of some numbers; zeros where there are none, as when all of them are NaN.
-fn extent<T: Real>(values: impl Iterator<Item = T>) -> (T, T) {
+pub(crate) fn extent<T: Real>(values: impl Iterator<Item = T>) -> (T, T) {
     let pairs = values.map(|value| (value.clone(), value));
     let both = pairs.reduce(|(min, max), (value, _)| (min.least(value.clone()), max.most(value)));
     both.unwrap_or_else(|| (T::of(0.0), T::of(0.0)))

@@ -9,10 +9,7 @@ use shadowfit::glam::DVec3;
 use shadowfit::{InputError, Light, Plane, Scene, View};
 
 use crate::arbitrary::{SceneParams, SceneStore, case, plane};
-use crate::outdoors::{self, Kind};
-
-/// The town of `outdoors`, by its numbers.
-pub(crate) const TOWN: ([f64; 3], [f64; 3]) = ([-200.0, 0.0, -200.0], [200.0, 15.0, 200.0]);
+use crate::outdoors::{self, Kind, TOWN};
 
 /// A view, a light and a scene.
 pub(crate) struct Case {

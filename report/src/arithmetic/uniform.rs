@@ -5,8 +5,10 @@ use shadowfit::Map;
 use shadowfit::glam::DVec3;
 
 use super::stability::arithmetic::Real;
-use super::stability::linear::{M4, V3, add, at, cross, dot, length, one, sub, through, times, unit, vector};
+use super::stability::linear::{M4, V3, at, one, sub, through, times, unit, vector};
+use super::stability::ours::across;
 use super::stability::setup::Setup;
+use super::stability::textbook::extent as extent_of;
 
 /// How large the box is: half of its width and height, and where it begins and ends along the light, from the eye.
 pub(crate) struct Extent<T> {
@@ -39,36 +41,19 @@ pub(crate) fn uniform<T: Real>(
     let axis = unit(&vector(-to_sun));
     let (u, v) = across(&axis, &frame.forward, &frame.up);
     let [u, v, along] = [u, v, axis].map(|axis| through(&axis, &frame.eye));
-    let bounds = [&u, &v].map(|row| bounds(visible.iter().map(|p| at(row, p))));
+    let bounds = [&u, &v].map(|row| extent_of(visible.iter().map(|p| at(row, p))));
     let Extent { half, near, far } = extent.unwrap_or_else(|| {
         let half = bounds.each_ref().map(|(min, max)| (max.clone() - min.clone()) / T::of(2.0));
         let corners = (0..8_u32).map(|corner| {
             let of = |axis: usize| if corner >> axis & 1 == 0 { setup.min[axis] } else { setup.max[axis] };
             at(&along, &[0, 1, 2].map(|axis| T::of(of(axis))))
         });
-        let far = self::bounds(visible.iter().map(|p| at(&along, p))).1;
-        Extent { half, near: self::bounds(corners).0, far }
+        let far = extent_of(visible.iter().map(|p| at(&along, p))).1;
+        Extent { half, near: extent_of(corners).0, far }
     });
     let row = |row, middle: &T, half: &T| times(&sub(row, &times(&one(), middle)), &(T::of(1.0) / half.clone()));
     let [x, y] = bounds.map(|(min, max)| (min + max) / T::of(2.0));
     [row(&u, &x, &half[0]), row(&v, &y, &half[1]), row(&along, &near, &(far - near.clone())), one()]
-}
-
-/// The least and the largest; zeros of none.
-fn bounds<T: Real>(values: impl Iterator<Item = T>) -> (T, T) {
-    let pairs = values.map(|value| (value.clone(), value));
-    let both = pairs.reduce(|(min, max), (value, _)| (min.least(value.clone()), max.most(value)));
-    both.unwrap_or_else(|| (T::of(0.0), T::of(0.0)))
-}
-
-/// The axes across a direction: see the crate's `frame`.
-fn across<T: Real>(along: &V3<T>, forward: &V3<T>, up: &V3<T>) -> (V3<T>, V3<T>) {
-    let seen = sub(forward, &times(along, &dot(forward, along)));
-    let sum = sub(along, up);
-    let turned = sub(forward, &times(&sum, &(T::of(2.0) * dot(forward, &sum) / dot(&sum, &sum))));
-    let mixed = add(&seen, &times(&turned, &(T::of(1.0) - length(&seen)).most(T::of(0.0))));
-    let second = unit(&sub(&mixed, &times(along, &dot(&mixed, along))));
-    (unit(&cross(along, &second)), second)
 }
 
 #[cfg(test)]

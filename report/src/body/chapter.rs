@@ -4,7 +4,7 @@ use anyhow::{Context as _, Result};
 
 use super::findings::findings;
 use super::{LAMP, Measured, SPOT, SUN, Summary, library, own};
-use crate::chapter::{Axis, Chapter, Figure, Part, Plot, Point, Raw, Series, Table};
+use crate::chapter::{Axis, Chapter, Figure, Part, Plot, Point, Raw, Series, Table, percent};
 
 /// The chapter made from what was measured.
 ///
@@ -136,11 +136,6 @@ fn drawn_plot(sun: &[&Summary]) -> Plot {
         "How many casters pass the culling, over how many meet the exact H, on average. Below 1 some are missing for sure.",
     ];
     over_time(text, Axis::logarithmic("casters drawn / needed"), sun, |one| Some(one.drawn / one.needed))
-}
-
-/// A part in per cent.
-pub(crate) fn percent(part: f64) -> String {
-    format!("{} %", Figure(100.0 * part))
 }
 
 fn table(light: &str, summaries: &[&Summary]) -> Option<Table> {

@@ -1,8 +1,7 @@
 //! What was found, in sentences made from the figures.
 
-use super::chapter::percent;
 use super::{LAMP, Measured, SPOT, SUN, Summary, library, naive, own};
-use crate::chapter::Figure;
+use crate::chapter::{Figure, percent};
 
 /// What was found.
 pub(crate) fn findings(measured: &Measured) -> Vec<String> {

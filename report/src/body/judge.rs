@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 
-use serde::Serialize;
 use shadowfit::Plane;
 use shadowfit::glam::DVec3;
 
@@ -17,7 +16,7 @@ use crate::oracle::body::Body;
 pub(crate) const TOLERANCE: f64 = 1e-3;
 
 /// What is said of one fit in the town.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
 pub struct Fit {
     /// The kind of light.
     pub light: &'static str,

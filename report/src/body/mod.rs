@@ -42,7 +42,6 @@ use anyhow::{Context as _, Result};
 use rand::SeedableRng as _;
 use rand::rngs::StdRng;
 use render_check::progress::bar;
-use serde::Serialize;
 use shadowfit::Scene;
 
 use crate::outdoors::{self, Kind};
@@ -55,7 +54,7 @@ use town::Town;
 use truth::TownTruth;
 
 /// All that was measured.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
 pub struct Measured {
     /// What the judge said of each fit in the town.
     pub fits: Vec<Fit>,
@@ -76,10 +75,10 @@ pub fn measure(size: Size) -> Result<Measured> {
     for kind in Kind::ALL {
         let (cases, truths) = cases(kind, size, &town, &lists)?;
         let contenders = contenders(kind, &cases)?;
-        let progress = bar(&format!("bodies of a {}", name(kind)), cases.len());
+        let progress = bar(&format!("bodies of a {}", kind.name()), cases.len());
         let first = fits.len();
         for (index, (case, truth)) in cases.iter().zip(&truths).enumerate() {
-            let mut bench = Bench::new(name(kind), index, case, &town, truth);
+            let mut bench = Bench::new(kind.name(), index, case, &town, truth);
             fits.extend(
                 contenders.iter().map(|contender| bench.judge(contender.name, contender.fitted(case).as_ref())),
             );
@@ -89,30 +88,21 @@ pub fn measure(size: Size) -> Result<Measured> {
         let times = times(size, &cases, &contenders);
         for (contender, time) in contenders.iter().zip(times) {
             let own: Vec<&Fit> = fits[first..].iter().filter(|fit| fit.contender == contender.name).collect();
-            summaries.push(Summary::new(name(kind), contender.name, &own, &time, cases.len(), &hard));
+            summaries.push(Summary::new(kind.name(), contender.name, &own, &time, cases.len(), &hard));
         }
     }
     Ok(Measured { fits, summaries })
 }
 
-/// What a kind of light is called.
-const fn name(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Sun => SUN,
-        Kind::Lamp => LAMP,
-        Kind::Spot => SPOT,
-    }
-}
-
 /// The names of the lights.
-const SUN: &str = "sun";
-const LAMP: &str = "lamp";
-const SPOT: &str = "spot";
+const SUN: &str = Kind::Sun.name();
+const LAMP: &str = Kind::Lamp.name();
+const SPOT: &str = Kind::Spot.name();
 
 /// Random views and lights that have something to cast on something visible, and what is true of them.
 fn cases<'a>(kind: Kind, size: Size, town: &Town, lists: &Scene<'a>) -> Result<(Vec<Case<'a>>, Vec<TownTruth>)> {
     let wanted = size.of(6, 800);
-    let progress = bar(&format!("what is true under a {}", name(kind)), wanted);
+    let progress = bar(&format!("what is true under a {}", kind.name()), wanted);
     let bounds = town.bounds();
     let scene = Scene::from_box(bounds.0, bounds.1).context("the town has no bounds")?;
     let mut random = StdRng::seed_from_u64(2 + kind as u64);

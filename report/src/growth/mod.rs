@@ -25,7 +25,6 @@ mod write_up;
 use anyhow::{Context, Result};
 use render_check::gpu::Gpu;
 use render_check::progress::bar;
-use serde::Serialize;
 
 use crate::size::Size;
 use cost::Cost;
@@ -33,7 +32,7 @@ use cost::Cost;
 pub use write_up::chapter;
 
 /// What was measured.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
 pub struct Measured {
     /// What the card calls itself, and the API it is reached through.
     pub card: String,

@@ -7,10 +7,9 @@ use super::cases::{ALL_WARPS, FILTERS, FORMATS, KINDS, PLOTTED, SLICES_OF_SAME_S
 use super::record::Record;
 use super::summary::Mean;
 use super::survey::SurveyRecord;
-use super::tables::{format_name, test_name};
+use super::tables::{fitted_to, format_name, test_name};
 use crate::chapter::Figure;
-use crate::front::front;
-use crate::statistics::{between, exponent, geometric_mean, quantile};
+use crate::statistics::{between, geometric_mean, quantile};
 
 /// All of them.
 pub(super) fn all(measured: &Measured) -> Vec<String> {
@@ -32,11 +31,6 @@ pub(super) fn all(measured: &Measured) -> Vec<String> {
         measured.records.len()
     ));
     found
-}
-
-/// What maps are fitted to, to begin a sentence.
-const fn fitted_to(narrowed: bool) -> &'static str {
-    if narrowed { "Fitted to what is seen" } else { "Fitted to all between the camera's planes" }
 }
 
 /// How many wrong pixels there are over others, in words.
@@ -65,7 +59,7 @@ fn of_warps(measured: &Measured, narrowed: bool) -> Option<String> {
         .map(|it| format!("{} has {}", it.contender, as_many(it.wrong_ratio)))
         .collect();
     Some(format!(
-        "{}, of single maps of {}² {} has the fewest wrong pixels, {} than the uniform map; {}.",
+        "Fitted to {}, of single maps of {}² {} has the fewest wrong pixels, {} than the uniform map; {}.",
         fitted_to(narrowed),
         measured.middle_size,
         best.contender,
@@ -77,10 +71,8 @@ fn of_warps(measured: &Measured, narrowed: bool) -> Option<String> {
 /// How large a uniform map must be to have as few wrong pixels as the best matrix at the middle size.
 fn size_that_matches(measured: &Measured, narrowed: bool) -> Option<String> {
     let best = measured.warp(narrowed, Technique::Best, 1, measured.middle_size)?;
-    let is_uniform = |it: &Mean| (it.contender.technique, it.contender.slices) == (Technique::Uniform, 1);
-    let mut uniform: Vec<Mean> = measured.warps(narrowed).into_iter().filter(is_uniform).collect();
-    uniform.sort_by_key(|it| it.contender.size);
-    let best_is = format!("{}, the best matrix at {}²", fitted_to(narrowed), measured.middle_size);
+    let uniform = measured.sizes(narrowed, Technique::Uniform, 1);
+    let best_is = format!("Fitted to {}, the best matrix at {}²", fitted_to(narrowed), measured.middle_size);
     let crossing = uniform
         .iter()
         .zip(uniform.iter().skip(1))
@@ -103,9 +95,7 @@ fn size_that_matches(measured: &Measured, narrowed: bool) -> Option<String> {
 
 /// What each halving of wrong pixels costs along the front.
 fn price_of_accuracy(measured: &Measured) -> Option<String> {
-    let points: Vec<(f64, f64)> = measured.warps(true).iter().map(|it| (it.time_ratio, it.wrong_ratio)).collect();
-    let on_it: Vec<(f64, f64)> = front(&points).into_iter().map(|index| points[index]).collect();
-    let power = exponent(&on_it);
+    let power = measured.power_along_front();
     let halving = 2_f64.powf(-1.0 / power);
     (power < 0.0).then(|| {
         format!(

@@ -5,6 +5,7 @@ use render_check::technique::Technique;
 use super::Measured;
 use super::cases::{ALL_WARPS, KINDS, PLOTTED, SLICES_OF_SAME_SUM};
 use super::summary::Mean;
+use super::tables::fitted_to;
 use crate::chapter::{Axis, Plot, Point, Series};
 use crate::statistics::geometric_mean;
 
@@ -13,12 +14,8 @@ const PLOTTED_SLICES: [(Technique, usize); 2] = [(Technique::Uniform, 4), (Techn
 
 /// Wrong pixels over time, of maps that are fitted to what is seen or not.
 pub(super) fn of_warps(measured: &Measured, narrowed: bool) -> Plot {
-    let (name, fitted_to) = if narrowed {
-        ("map-warps", "what is seen")
-    } else {
-        ("map-warps-whole", "all between the camera's planes")
-    };
-    let means = measured.warps(narrowed);
+    let name = if narrowed { "map-warps" } else { "map-warps-whole" };
+    let fitted_to = fitted_to(narrowed);
     let single = PLOTTED.map(|technique| (technique, 1));
     Plot {
         name: name.to_owned(),
@@ -34,17 +31,15 @@ pub(super) fn of_warps(measured: &Measured, narrowed: bool) -> Plot {
         series: single
             .into_iter()
             .chain(PLOTTED_SLICES)
-            .filter_map(|(technique, slices)| of_sizes(&means, technique, slices))
+            .filter_map(|(technique, slices)| of_sizes(measured, narrowed, technique, slices))
             .collect(),
         front: true,
     }
 }
 
 /// One way to spread texels in all sizes, those of the uniform map written beside it; nothing where it was not drawn.
-fn of_sizes(means: &[Mean], technique: Technique, slices: usize) -> Option<Series> {
-    let is_it = |it: &&Mean| (it.contender.technique, it.contender.slices) == (technique, slices);
-    let mut own: Vec<&Mean> = means.iter().filter(is_it).collect();
-    own.sort_by_key(|it| it.contender.size);
+fn of_sizes(measured: &Measured, narrowed: bool, technique: Technique, slices: usize) -> Option<Series> {
+    let own = measured.sizes(narrowed, technique, slices);
     let is_labelled = (technique, slices) == (Technique::Uniform, 1);
     Some(Series {
         name: own.first()?.contender.to_string(),

@@ -6,7 +6,8 @@ use super::Measured;
 use super::cases::WARPS;
 use super::record::{Contender, Record};
 use super::survey::SurveyRecord;
-use crate::statistics::{between, geometric_mean};
+use crate::front::front;
+use crate::statistics::{between, exponent, geometric_mean};
 
 /// A contender over all scenes and lights of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,19 +88,31 @@ impl Measured {
     /// One of them.
     #[must_use]
     pub fn warp(&self, narrowed: bool, technique: Technique, slices: usize, size: u32) -> Option<Mean> {
-        let is_it = |it: &Mean| {
-            (it.contender.technique, it.contender.slices, it.contender.size) == (technique, slices, size)
-        };
-        self.warps(narrowed).into_iter().find(is_it)
+        self.sizes(narrowed, technique, slices).into_iter().find(|it| it.contender.size == size)
+    }
+
+    /// The power of time that wrong pixels go with along the front of all maps that are fitted to what is seen.
+    #[must_use]
+    pub fn power_along_front(&self) -> f64 {
+        let points: Vec<(f64, f64)> = self.warps(true).iter().map(|it| (it.time_ratio, it.wrong_ratio)).collect();
+        exponent(&front(&points).into_iter().map(|index| points[index]).collect::<Vec<_>>())
+    }
+
+    /// Single maps or slices by a warp, in the order of their sizes.
+    #[must_use]
+    pub fn sizes(&self, narrowed: bool, technique: Technique, slices: usize) -> Vec<Mean> {
+        let mut means = self.warps(narrowed);
+        means.retain(|it| (it.contender.technique, it.contender.slices) == (technique, slices));
+        means.sort_by_key(|it| it.contender.size);
+        means
     }
 
     /// Wrong pixels of single maps by a warp that take as long as the uniform map of the middle size, over that map's: read off
     /// the line between the two sizes that are nearest to that time. NaN with fewer than two sizes.
     #[must_use]
     pub fn wrong_in_same_time(&self, narrowed: bool, technique: Technique) -> f64 {
-        let is_it = |it: &Mean| (it.contender.technique, it.contender.slices) == (technique, 1);
-        let mut points: Vec<(f64, f64)> =
-            self.warps(narrowed).iter().filter(|it| is_it(it)).map(|it| (it.time_ratio, it.wrong_ratio)).collect();
+        let sizes = self.sizes(narrowed, technique, 1);
+        let mut points: Vec<(f64, f64)> = sizes.iter().map(|it| (it.time_ratio, it.wrong_ratio)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let after = points.partition_point(|point| point.0 < 1.0).clamp(1, points.len().max(2) - 1);
         match points.get(after - 1..=after) {

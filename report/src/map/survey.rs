@@ -121,7 +121,7 @@ fn of_kind(
     let records = ALL_WARPS.iter().zip(&ratios).zip(&times).map(|((&technique, [worst, mean, limit]), time)| {
         let coarser = worst.iter().filter(|&&ratio| ratio > COARSER).count();
         SurveyRecord {
-            kind: name(kind),
+            kind: kind.name(),
             narrowed,
             technique,
             views: worst.len(),
@@ -138,13 +138,4 @@ fn of_kind(
         }
     });
     Ok(records.collect())
-}
-
-/// The kind of light in a word.
-const fn name(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Sun => "sun",
-        Kind::Lamp => "lamp",
-        Kind::Spot => "spot",
-    }
 }

@@ -8,12 +8,7 @@ use super::cases::{FILTERS, FORMATS, KINDS, SLICES_OF_SAME_SIZE, SLICES_OF_SAME_
 use super::record::{Contender, Record, Refused};
 use super::summary::Mean;
 use super::survey::SurveyRecord;
-use crate::chapter::{Figure, Table};
-
-/// A share as a number of percents.
-fn percent(share: f64) -> String {
-    format!("{} %", Figure(100.0 * share))
-}
+use crate::chapter::{Figure, Table, percent};
 
 /// The columns of all tables of means, but for the first ones.
 const COLUMNS: [&str; 9] = [
@@ -53,8 +48,8 @@ fn of_means(caption: String, heads: &[&str], means: &[Mean], names: impl Fn(&Con
 }
 
 /// What maps were fitted to, in words.
-const fn fitted_to(narrowed: bool) -> &'static str {
-    if narrowed { "fitted to what is seen" } else { "fitted to all between the camera's planes" }
+pub(super) const fn fitted_to(narrowed: bool) -> &'static str {
+    if narrowed { "what is seen" } else { "all between the camera's planes" }
 }
 
 /// Over what the means of a comparison are.
@@ -77,8 +72,9 @@ fn name_and_size(contender: &Contender) -> Vec<String> {
 pub(super) fn of_warps(measured: &Measured) -> Vec<Table> {
     let table = |narrowed: bool| {
         let (fitted_to, shots) = (fitted_to(narrowed), shots(measured, WARPS));
-        let caption =
-            format!("Warps, sizes and slices, {fitted_to}. Means over {shots}. Sizes are those of each map.");
+        let caption = format!(
+            "Warps, sizes and slices, fitted to {fitted_to}. Means over {shots}. Sizes are those of each map."
+        );
         of_means(caption, &["map", "size"], &measured.warps(narrowed), name_and_size)
     };
     [true, false].map(table).to_vec()
@@ -133,7 +129,8 @@ pub(super) fn of_fits(measured: &Measured) -> Table {
 pub(super) fn of_slices(measured: &Measured) -> Vec<Table> {
     let table = |comparison: &str, texels: &str, narrowed: bool| {
         let (fitted_to, shots) = (fitted_to(narrowed), shots(measured, comparison));
-        let caption = format!("One slice to eight with as many texels {texels}, {fitted_to}. Means over {shots}.");
+        let caption =
+            format!("One slice to eight with as many texels {texels}, fitted to {fitted_to}. Means over {shots}.");
         of_means(caption, &["maps", "size of each"], &measured.means(comparison, narrowed), name_and_size)
     };
     let of =
