@@ -10,22 +10,18 @@ use crate::light::Light;
 use crate::map::{DepthSpan, Map, Window};
 use crate::perspective::VirtualCamera;
 use crate::rays::Rays;
-use crate::rounding::{self, Rounding};
+use crate::rounding::{self, AWAY_FROM_LAMP, Rounding};
 use crate::scene::{Region, Scene};
-use crate::settings::{Origin, Settings, Shift, Warp};
+use crate::settings::{Settings, Shift, Warp};
 use crate::stable::Stable;
 use crate::view::View;
-use crate::warp::{self, Proposed, light_space, perspective, trapezoidal};
+use crate::warp::{self, Precision, Proposed, Samples, light_space, perspective, trapezoidal};
 use core::fmt;
 use glam::{DVec3, DVec4};
 
 /// The window and the depth range are at least this part of half of what the image shows at the visible points: a
 /// millionth of a pixel or so, for a scene that is a point.
 const LEAST_PART: f64 = 1.0 / 1_073_741_824.0;
-
-/// What is no farther from a light at a position, along the axis, than this part of the way to the farthest of what is
-/// visible is beside it: a bias answers there for depth, but not for places ([`DepthBias`](crate::DepthBias)).
-const AWAY_FROM_LAMP: f64 = 1.0 / 16.0;
 
 /// What comes of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -169,10 +165,7 @@ fn fit_visible(
     let Ok(rays) = rays else {
         return Outcome::Surrounded(Surrounded);
     };
-    let origin = match settings.origin() {
-        Origin::World => DVec3::ZERO,
-        Origin::Eye => view.eye(),
-    };
+    let origin = settings.origin().of(view, light);
 
     // What is visible, as the uniform map and as the camera see it.
     let (mut u, mut v, mut along, mut eye_depth) =
@@ -184,7 +177,8 @@ fn fit_visible(
         along.include(rays.along.at(point));
         eye_depth.include(view.depth(point));
     }
-    let middle = stable.as_ref().map_or_else(|| Rectangle::over(&u, &v).centre, Stable::middle);
+    let on_chart = Rectangle::over(&u, &v);
+    let middle = stable.as_ref().map_or(on_chart.centre, Stable::middle);
     let zero = stable.as_ref().map_or(along.middle(), |stable| stable.zero(along.middle()));
 
     // The warp.
@@ -206,6 +200,8 @@ fn fit_visible(
             eye_depth,
             origin,
             least: LEAST_PART * view.half_height(eye_depth.max),
+            precision: Precision::new(&rays, visible.positions(), origin, &along, settings.sides()),
+            samples: &Samples::new(focus, &rays, &on_chart, along.middle(), settings.sides()),
         };
         let perspective = || perspective::propose(&seen, &camera.rows(view));
         match settings.warp() {
@@ -214,14 +210,13 @@ fn fit_visible(
             Warp::LightSpace => light_space::propose(&seen),
             Warp::Trapezoidal => trapezoidal::propose(&seen),
             Warp::Best(effort) => {
-                let before = before.map(|map| (&map.rows, map.weakening));
                 let chosen = best::choose(&seen, visible.edges(), perspective(), effort, settings, before);
                 switched = chosen.switched;
                 Ok(chosen.proposed)
             }
         }
     };
-    let Proposed { warp, weakening, frame } = proposed.unwrap_or(Proposed::UNIFORM);
+    let Proposed { warp, weakening, mixed, frame } = proposed.unwrap_or(Proposed::UNIFORM);
     let map = Homography::new(&rays, middle, &frame, &warp, zero);
 
     // The window: what R covers. Nothing else in hull(R, l) can widen it.
@@ -254,7 +249,9 @@ fn fit_visible(
     let bordered =
         stable.as_ref().map_or_else(|| window.with_half(window.half / settings.inner()), Stable::least_window);
     let least_c = map.least_c(&rays, &bordered, light.near());
-    let mut rounding = Rounding::new(&map, &rays, origin, &c, least_c);
+    // What is so far from a lamp has at least so much c, whatever the warp; under a directional light there is none beside.
+    let away_c = if rays.local { ratio.min * along.max * AWAY_FROM_LAMP } else { c.min };
+    let mut rounding = Rounding::new(&map, &rays, origin, &c, [least_c, away_c]);
     for point in visible.positions() {
         rounding.include_visible(point, map.c_at(point));
     }
@@ -297,12 +294,9 @@ fn fit_visible(
             stable.largest_w(light, c.max),
         ),
     };
-    // What is so far from a lamp has at least so much c, whatever the warp; under a directional light there is none beside.
-    let away_c = if rays.local { ratio.min * along.max * AWAY_FROM_LAMP } else { c.min };
     // −e·l.
     let to_light = if rays.local { zero } else { 1.0 };
-    let noise =
-        rounding.scaled_to(largest).in_map(&map, &padded, &padded_depth, settings.sides(), [away_c, to_light]);
+    let noise = rounding.scaled_to(largest).in_map(&map, &padded, &padded_depth, settings.sides(), to_light);
     Outcome::Map(Map {
         rows: map.rows_to(&padded, &padded_depth, largest.recip()),
         view: *view,
@@ -314,6 +308,7 @@ fn fit_visible(
         noise,
         along: linear,
         weakening,
+        mixed,
         refusal: proposed.err(),
         switched,
         warp_ratio: ratio.max / ratio.min,

@@ -126,6 +126,14 @@ impl<'a> Focus<'a> {
         if self.separate { None } else { self.receivers.as_ref() }
     }
 
+    /// Calls `each` with the planes of S and L that bound what is visible besides the view's own.
+    pub(crate) fn for_each_plane(&self, mut each: impl FnMut(Plane)) {
+        if let Some(region) = &self.receivers {
+            region.for_each_plane(|plane, _| each(plane));
+        }
+        self.light_planes.iter().for_each(|plane| each(*plane));
+    }
+
     /// Makes R of any body, telling `each` which planes bound it.
     pub(crate) fn cut_visible(&self, body: &mut Polyhedron, each: impl FnMut(Plane, PlaneId)) {
         body.clear();

@@ -24,9 +24,10 @@ use glam::{DMat4, DVec2, DVec3, Mat4};
 ///
 /// - every point of R and of H, taken through the f32 matrix in f32, lies inside the clip volume, and R keeps the border
 ///   of the settings from its sides. There are three exceptions: a point where f32 loses half of w or more, as next to a
-///   lamp of millimetres a thousand kilometres from the origin in [`Origin::World`], is anywhere; a caster so near to a light at a position that f32 cannot
-///   tell where it stands to within a thousandth of the window may be off by its rounding; and where casters and
-///   receivers have lists of their own, a receiver may be nearer to the light than the first caster, and is lit;
+///   lamp of millimetres a thousand kilometres from the origin in [`Origin::World`], is anywhere; a caster so near to a light at
+///   a position that f32 cannot tell where it stands to within a thousandth of the window, or a receiver to within a 64th, may be
+///   off by its rounding; and where casters and receivers have lists of their own, a receiver may be nearer to the light than
+///   the first caster, and is lit;
 /// - points on a ray from the light share their (x, y), and depth grows away from the light: the test is 'less', or
 ///   'greater' for a reversed clip space, whatever the class of the light;
 /// - w > 0, so that no caster wraps around, wherever it is, also behind the eye.
@@ -43,6 +44,8 @@ pub struct Map {
     pub(crate) along: Along,
     pub(crate) noise: MapNoise,
     pub(crate) weakening: f64,
+    /// By how much of the uniform map's w the best map was mixed, see [`Proposed::mixed`](crate::warp::Proposed).
+    pub(crate) mixed: f64,
     pub(crate) refusal: Option<Refusal>,
     pub(crate) switched: bool,
     pub(crate) warp_ratio: f64,
@@ -109,8 +112,8 @@ impl DepthSpan {
 }
 
 impl Map {
-    /// The matrix to upload: world space, or positions relative to the eye ([`Origin::Eye`]), to clip space in the
-    /// convention of the settings.
+    /// The matrix to upload: positions relative to [`Self::origin`], in world space unless the settings say otherwise, to clip
+    /// space in the convention of the settings.
     #[must_use]
     pub fn matrix(&self) -> Mat4 {
         self.about_origin(self.shadow_from_world()).as_mat4()
@@ -167,11 +170,17 @@ impl Map {
         self.along.linear_depth()
     }
 
+    /// What positions are relative to in the f32 matrices, in world space: subtract it in f64 before they become f32.
+    #[must_use]
+    pub fn origin(&self) -> DVec3 {
+        self.settings.origin().of(&self.view, &self.light)
+    }
+
     /// The matrix for positions relative to the origin of the settings.
     pub(crate) fn about_origin(&self, from_world: DMat4) -> DMat4 {
         match self.settings.origin() {
             Origin::World => from_world,
-            Origin::Eye => from_world * DMat4::from_translation(self.view.eye()),
+            Origin::Eye | Origin::Light => from_world * DMat4::from_translation(self.origin()),
         }
     }
 
@@ -285,8 +294,10 @@ impl Map {
         self.warp_ratio
     }
 
-    /// The part of w, on the ray in the middle, that is the uniform map's: 0 for the paper's warp as it is, 1 for no warp
-    /// at all, and more where the paper's w is negative on that ray.
+    /// The part of w, on the ray in the middle, that is the uniform map's: 0 for the warp as it was proposed or found, 1 for no warp
+    /// at all, and more where the paper's w is negative on that ray. A warp is weakened where f32 could not evaluate it, the more
+    /// the larger a part of a texel f32 takes in the uniform map; the best map also where less of a warp gives finer texels and a
+    /// smaller bias at what may be seen.
     #[must_use]
     pub const fn weakening(&self) -> f64 {
         self.weakening

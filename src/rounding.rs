@@ -11,7 +11,11 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 /// A clip coordinate is a sum of four products in f32: the coordinate and the entry are rounded on the way in, the
 /// product once, the sum three times, so that an error is at most 6 units in the last place, 6 · 2⁻²⁴, of the sum of the
 /// terms' magnitudes. Eight leave room for terms of second order and for a row that is the sum of two (depth −1 to 1).
-const UNITS: f64 = 8.0 / 16_777_216.0;
+pub(crate) const UNITS: f64 = 8.0 / 16_777_216.0;
+
+/// What is no farther from a light at a position, along the axis, than this part of the way to the farthest of what is
+/// visible is beside it: a bias answers there for depth, but not for places ([`DepthBias`](crate::DepthBias)).
+pub(crate) const AWAY_FROM_LAMP: f64 = 1.0 / 16.0;
 
 /// The same in f64, for the dozen or two roundings between a point of the input and a row of the matrix.
 const UNITS_F64: f64 = 32.0 * f64::EPSILON;
@@ -40,8 +44,10 @@ pub(crate) struct Rounding {
     origin: DVec3,
     /// Least and largest c of what is visible and no nearer to the light than its near distance.
     c: Interval,
-    /// By how much ratios at the vertices may be too small, see [`Self::include_visible`].
-    cut: f64,
+    /// The least c of what is not beside a lamp either.
+    away: f64,
+    /// By how much ratios at the vertices may be too small, see [`Self::include_visible`], with c no less than `c` and `away`.
+    cut: [f64; 2],
     visible: Visible,
     /// The largest M/c of what can cast.
     casting: Rows,
@@ -57,11 +63,12 @@ struct Rows {
     w: f64,
 }
 
-/// The largest M of what is visible, and the largest M/c.
+/// The largest M of what is visible, and the largest M/c, also where what is beside a lamp is left out.
 #[derive(Clone, Copy, Debug, Default)]
 struct Visible {
     magnitude: Rows,
     ratio: Rows,
+    ratio_away: Rows,
 }
 
 impl Rows {
@@ -131,6 +138,9 @@ impl Noise {
     }
 }
 
+/// What is visible beside a lamp may ask for this part of the window as padding and no more: most often it is air.
+const MOST_BESIDE_LAMP: f64 = 1.0 / 64.0;
+
 /// A caster next to a light at a position is seen from there through few bits. Such casters may ask for this part of the
 /// window as padding and no more: beyond that the map is for what is visible.
 const MOST_FOR_LOCAL_CASTERS: f64 = 1.0 / 1024.0;
@@ -146,9 +156,15 @@ const MOST_FOR_LOCAL_CASTERS: f64 = 1.0 / 1024.0;
 pub(crate) const QUIET: f64 = 1_048_576.0;
 
 impl Rounding {
-    /// No points yet; positions are taken relative to `origin`, c of what is visible is in `c`, and of what is no nearer to
-    /// the light than its near distance at least `least_c`.
-    pub(crate) fn new(map: &Homography, rays: &Rays, origin: DVec3, c: &Interval, least_c: f64) -> Self {
+    /// No points yet; positions are taken relative to `origin`, c of what is visible is in `c`, of what is no nearer to
+    /// the light than its near distance at least `least_c`, and of what is not beside a lamp at least `away_c`.
+    pub(crate) fn new(
+        map: &Homography,
+        rays: &Rays,
+        origin: DVec3,
+        c: &Interval,
+        [least_c, away_c]: [f64; 2],
+    ) -> Self {
         let rows = map.rows;
         let about = rows.x_axis * origin.x + rows.y_axis * origin.y + rows.z_axis * origin.z + rows.w_axis;
         let [x, y, z, w] = [rows.x_axis, rows.y_axis, rows.z_axis, about].map(|column| column.abs() * UNITS);
@@ -160,11 +176,13 @@ impl Rounding {
             + rows.w_axis.abs() * UNITS_F64;
         let w = w + cancelled;
         let counted = least(most(c.min, least_c), c.max);
+        let away = least(most(counted, away_c), c.max);
         Self {
             magnitudes: DMat4::from_cols(x, y, z, w),
             origin,
             c: Interval { min: counted, max: c.max },
-            cut: 2.0 - least(c.min / counted, 1.0),
+            away,
+            cut: [counted, away].map(|counted| 2.0 - least(c.min / counted, 1.0)),
             visible: Visible::default(),
             casting: Rows::default(),
             local: rays.local,
@@ -193,6 +211,7 @@ impl Rounding {
         let here = self.at(point);
         self.visible.magnitude.include(here);
         self.visible.ratio.include(here * most(c, self.c.min).recip());
+        self.visible.ratio_away.include(here * most(c, self.away).recip());
     }
 
     /// Takes in a point that may cast, with c there.
@@ -203,22 +222,32 @@ impl Rounding {
 
     /// Rounding of what is visible, relative to c, at most.
     fn visible(&self) -> Rows {
-        self.visible.ratio.times(self.cut).min(&self.visible.magnitude.times(self.c.min.recip()))
+        self.visible.ratio.times(self.cut[0]).min(&self.visible.magnitude.times(self.c.min.recip()))
+    }
+
+    /// The same of what is not beside a lamp.
+    fn away(&self) -> Rows {
+        self.visible.ratio_away.times(self.cut[1]).min(&self.visible.magnitude.times(self.away.recip()))
     }
 
     /// Half extents of a window that holds `window` after rounding in the `inner` part of a map of so many texels across and
-    /// down, no smaller than `least`, nor so small that a texel would be less than the rounding.
+    /// down, no smaller than `least`, nor, under a directional light, so small that a texel would be less than the rounding.
     pub(crate) fn padded_window(&self, window: &Rectangle, inner: DVec2, sides: DVec2, least: f64) -> DVec2 {
-        let of_visible = self.visible();
-        let visible = of_visible.of_window(window);
-        let (mut casting, mut casting_w) = (self.casting.of_window(window), self.casting.w);
+        let away = self.away();
+        let (mut beside, mut casting) = (self.visible(), self.casting);
+        let of_away = away.of_window(window);
+        let (mut of_beside, mut of_casting) = (beside.of_window(window), casting.of_window(window));
         if self.local {
-            casting = casting.min(window.half * MOST_FOR_LOCAL_CASTERS);
-            casting_w = casting_w.min(MOST_FOR_LOCAL_CASTERS);
+            of_beside = of_beside.min(window.half * MOST_BESIDE_LAMP);
+            beside.w = beside.w.min(MOST_BESIDE_LAMP);
+            of_casting = of_casting.min(window.half * MOST_FOR_LOCAL_CASTERS);
+            casting.w = casting.w.min(MOST_FOR_LOCAL_CASTERS);
         }
-        let w = of_visible.w.max(casting_w).min(0.5);
-        let padded = (window.half + visible.max(casting)) / ((1.0 - w) * inner);
-        padded.max(visible * (0.5 * sides)).max(DVec2::splat(least))
+        let w = away.w.max(beside.w).max(casting.w).min(0.5);
+        let padded = (window.half + of_away.max(of_beside).max(of_casting)) / ((1.0 - w) * inner);
+        // Next to a lamp coordinates are small and rounding is not; its map would be as coarse as that all over.
+        let of_texels = if self.local { DVec2::ZERO } else { of_away * (0.5 * sides) };
+        padded.max(of_texels).max(DVec2::splat(least))
     }
 
     /// How deep rounding may put a point that casts, with the depth e/c there, in a range before it is padded.
@@ -254,15 +283,14 @@ impl Rounding {
         Self { c: Interval { max: largest, ..self.c }, ..self }
     }
 
-    /// What all this makes of a map of so many texels across and down, where what is not beside a lamp has at least the c,
-    /// and −e·l is as said.
+    /// What all this makes of a map of so many texels across and down, where −e·l is as said.
     pub(crate) fn in_map(
         &self,
         map: &Homography,
         window: &Rectangle,
         depth: &Interval,
         sides: DVec2,
-        [away_c, to_light]: [f64; 2],
+        to_light: f64,
     ) -> MapNoise {
         // Where f32 loses half of w or more, a point is anywhere.
         let left = 1.0 - self.visible().w.min(0.5);
@@ -274,7 +302,7 @@ impl Rounding {
             depth: noise(&|rows| rows.in_depth(depth)),
             place: noise(&|rows| (0.5 * sides * rows.in_window(window)).max_element()),
             least_w: self.c.min / self.c.max,
-            away_w: most(away_c, self.c.min) / self.c.max,
+            away_w: self.away / self.c.max,
             to_light: to_light / (depth.max - depth.min) / self.c.max,
             change: map.change_of_inverse_c(window, sides) / to_light * self.c.max,
         }

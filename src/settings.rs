@@ -3,7 +3,9 @@
 use crate::clip_space::ClipSpace;
 use crate::error::{InputError, Problem, check};
 use crate::focus::Form;
-use glam::DVec2;
+use crate::light::Light;
+use crate::view::View;
+use glam::{DVec2, DVec3};
 
 /// What the map's texels are spread by: the covector c that becomes w.
 ///
@@ -50,13 +52,17 @@ pub enum Warp {
     /// Not every light has such a map, see [`Refusal`](crate::Refusal); it is the uniform one then.
     Stable,
     /// The best of all single matrices that a search of this effort finds: over the warp, and over turn and shear of the window.
-    /// What counts is the worst aliasing over the vertices of what is visible and, under a light at a position, over the
-    /// middles of its edges too ([`Map::aliasing_over`](crate::Map::aliasing_over) looks everywhere). It is never more than
-    /// that of a closed form, of which the perspective warp comes with the back-shift of the settings, but for what f32
-    /// needs of the window.
     ///
-    /// All that is visible counts, seen or not: a near plane in the air draws texels there, as with other warps. From one
-    /// frame to the next the search may end elsewhere; fitted from the map of the frame before
+    /// The search looks for the least worst aliasing over the vertices of what is visible and, under a light at a position, over the
+    /// middles of its edges too ([`Map::aliasing_over`](crate::Map::aliasing_over) looks everywhere), from those of all closed forms
+    /// on, of which the perspective warp comes with the back-shift of the settings. Points nearer to the eye than a 256th of the
+    /// depth of the farthest, in the air before all that is seen most often, count as if they stood there.
+    ///
+    /// What is found is then mixed with the uniform map by as much as is best at points that stand for what is seen, where bias
+    /// counts beside texels: a warp leans depth, and shadows begin farther behind their casters the more it does.
+    /// [`Map::weakening`](crate::Map::weakening) says by how much, and 1 where the uniform map is better.
+    ///
+    /// From one frame to the next the search may end elsewhere; fitted from the map of the frame before
     /// ([`Focus::fit_from`](crate::Focus::fit_from)) it stays, and costs less.
     Best(Effort),
 }
@@ -131,6 +137,23 @@ pub enum Origin {
     /// The eye of the view, with the world's axes: what a renderer of large worlds uploads, with positions that it
     /// subtracted the eye from in f64.
     Eye,
+    /// The light, where it is at a position, with the world's axes, and the eye where it is directional: the numbers are smallest
+    /// where they count. [`Map::origin`](crate::Map::origin) says what to subtract, in f64, before positions become f32.
+    ///
+    /// A lamp's map is then the same wherever in the world the lamp stands, where in world space it loses with every power of
+    /// ten one digit of what there is at its near distance.
+    Light,
+}
+
+impl Origin {
+    /// Where it is, in world space.
+    pub(crate) fn of(self, view: &View, light: &Light) -> DVec3 {
+        match self {
+            Self::World => DVec3::ZERO,
+            Self::Eye => view.eye(),
+            Self::Light => light.position().unwrap_or(view.eye()),
+        }
+    }
 }
 
 /// How a fit is made. The default is the best single matrix that is found, in a map of 2048² texels for an image 1080

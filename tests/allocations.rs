@@ -55,7 +55,7 @@ fn settings() -> Vec<Settings> {
     {
         for shift in shifts {
             for clip in clips {
-                for origin in [Origin::World, Origin::Eye] {
+                for origin in [Origin::World, Origin::Eye, Origin::Light] {
                     let base = Settings::new(1024, 720).unwrap().with_border(3).unwrap();
                     // A map that is not square is searched for in more ways.
                     let base = if origin == Origin::Eye { base.with_map_sides(2048, 512).unwrap() } else { base };

@@ -42,11 +42,11 @@ fn a_plate_under_light_from_above_does_not_drown_in_noise() {
     ];
     for light in lights.map(|light| light.expect("sound")) {
         for warp in WARPS {
-            for origin in [Origin::World, Origin::Eye] {
+            for origin in [Origin::World, Origin::Eye, Origin::Light] {
                 let settings = Settings::default().with_warp(warp).with_origin(origin);
                 let focus = Focus::new(&view, &light, &scene);
                 let map = *focus.fit(&settings).map().expect("one map does");
-                let of_w = |point: &DVec3| rounding(&map, &view, *point).1;
+                let of_w = |point: &DVec3| rounding(&map, *point).1;
                 let of_w = focus.visible().vertices().iter().map(of_w).fold(0.0, f64::max);
                 for point in focus.visible().vertices() {
                     let w = (map.shadow_from_world() * point.extend(1.0)).w;

@@ -112,13 +112,14 @@ impl Draft {
         }
     }
 
-    /// Puts a visible point on the chart; where there is no room left for it, it counts for nothing.
-    pub(super) fn include(&mut self, rays: &Rays, view: &View, position: DVec3) {
+    /// Puts a visible point on the chart, seen as if from no nearer than `nearest`; where there is no room left for it, it counts
+    /// for nothing.
+    pub(super) fn include(&mut self, rays: &Rays, view: &View, nearest: f64, position: DVec3) {
         let (ray, w) = rays.through(position);
         // Across the ray of a light at a position, a step on the chart goes w far to the side, but only w/|(U, V, 1)|
         // towards the chart's origin or away from it.
         let (size, shorter) = if rays.local { (w, 1.0 / (1.0 + ray.length_squared())) } else { (1.0, 0.0) };
-        let in_image = size / view.half_height(view.depth(position));
+        let in_image = size / view.half_height(most(view.depth(position), nearest));
         let scale = in_image * in_image;
         let stretch = Stretch {
             xx: scale * (1.0 - ray.x * ray.x * shorter),

@@ -2,7 +2,8 @@
 //!
 //! Every single-pass map of a light is a homography of the chart of its rays (DESIGN section 2): two numbers choose c, two
 //! turn and shear the window, and its fit to what is visible is the rest. What is looked for is the least of the worst
-//! aliasing over the vertices of R. There are many local minima, one for each pair of edges of R that sides of the window
+//! aliasing over the vertices of R, of which those in the air next to the eye count as if they stood farther away, and what is
+//! found is mixed with the uniform map by as much as it is worth at what may be seen ([`mixed`]). There are many local minima, one for each pair of edges of R that sides of the window
 //! may lie along, but few of them where the maximum over the points is taken softly. So the search starts softly from
 //! the best closed form, as it is and turned by 45°, and sharpens the better of the two. In a map that is not square a
 //! quarter turn makes another map: there are twice as many closed forms and beginnings, and the better half is sharpened.
@@ -12,11 +13,11 @@ mod refine;
 mod step;
 
 use crate::bounds::{least, most};
-use crate::convex::Plane;
 use crate::homography::Frame;
-use crate::rays::Functional;
+use crate::map::Map;
+use crate::rays::{Functional, Rays};
 use crate::settings::{Effort, Settings};
-use crate::warp::{MAX_RATIO, Proposed, Visible, light_space, trapezoidal};
+use crate::warp::{MAX_RATIO, NEAREST, Proposed, Visible, light_space, trapezoidal};
 use core::f64::consts::FRAC_1_SQRT_2;
 use draft::{Change, Draft, Rows};
 use glam::{DMat2, DVec2, DVec3};
@@ -31,15 +32,14 @@ pub(crate) struct Chosen {
 }
 
 /// Chooses the best map for what is visible, whose edges are given as well, from the closed forms on, of which the perspective
-/// one may be that of a camera moved back. `before` has the rows of the map of the frame before, if there is one, and by how
-/// much it was weakened.
+/// one may be that of a camera moved back. `before` is the map of the frame before, if there is one.
 pub(crate) fn choose<P: Iterator<Item = DVec3> + Clone>(
     visible: &Visible<'_, P>,
     edges: impl Iterator<Item = (DVec3, DVec3)>,
     perspective: Proposed,
     effort: Effort,
     settings: &Settings,
-    before: Option<(&[Plane; 4], f64)>,
+    before: Option<&Map>,
 ) -> Chosen {
     let Visible { rays, middle, .. } = *visible;
     let (width, height) = settings.map_sides();
@@ -61,7 +61,9 @@ pub(crate) fn choose<P: Iterator<Item = DVec3> + Clone>(
         // All that is visible is on one ray.
         return Chosen { proposed: Proposed::UNIFORM, switched: false };
     };
-    let before = before.map(|([x, y, _, w], weakening)| ([x, y, w].map(|row| rays.functional(row)), weakening));
+    let already = before.map(|map| map.mixed);
+    let drawn = before.map(|map| rows_of(map, rays, middle));
+    let before = before.and_then(|map| unmixed(map, rays, middle));
     let kept = before.and_then(|(rows, _)| search.next_frame(&rows)).filter(|kept| kept.worst <= closed.worst);
     let chosen = kept.unwrap_or_else(|| {
         let best = search.best(closed, effort);
@@ -80,13 +82,70 @@ pub(crate) fn choose<P: Iterator<Item = DVec3> + Clone>(
     };
     let moves = held(chosen.rows, 0.0);
     let stays = before.and_then(|(rows, weakening)| held(rows, weakening));
-    let (Candidate { rows, .. }, proposed) = match (stays, moves) {
+    let (_, proposed) = match (stays, moves) {
         (Some(stays), None) => stays,
         // Where the worst hardly depends on the map, a search goes on and on for next to nothing, and texels crawl.
         (Some(stays), Some(moves)) if moves.0.worst > stays.0.worst * WORTH_MOVING => stays,
         (_, moves) => moves.unwrap_or((closed, form)),
     };
-    Chosen { proposed, switched: before.is_some_and(|(before, _)| search.jumps(&before, &rows)) }
+    let proposed = mixed(visible, proposed, already);
+    let rows = proposed.frame.rows(middle, &proposed.warp);
+    Chosen { proposed, switched: drawn.is_some_and(|before| search.jumps(&before, &rows)) }
+}
+
+/// By how much of the uniform map's w a map is mixed to be worth most; not mixed at all is the first, and in the end there is no
+/// warp left.
+const MIXED: [f64; 6] = [0.0, 0.125, 0.25, 0.5, 1.0, f64::INFINITY];
+
+/// A score that is better by less than this is not worth a jump.
+const SAME_SCORE: f64 = 1.0 / 64.0;
+
+/// The best map mixed with the uniform one as is best for what may be seen, `before` as much as the frame before was.
+///
+/// The search looks for the least worst texel over R, which is mostly air. How a map compares at samples of what may be seen
+/// ([`Visible::score`]) says how much of that warp is worth having.
+fn mixed<P: Iterator<Item = DVec3> + Clone>(
+    visible: &Visible<'_, P>,
+    proposed: Proposed,
+    before: Option<f64>,
+) -> Proposed {
+    let of = |kappa: f64| {
+        if kappa.is_finite() {
+            Proposed { mixed: kappa, ..proposed.mixed_by(kappa) }
+        } else {
+            Proposed { mixed: kappa, ..Proposed::UNIFORM }
+        }
+    };
+    let mut best = (f64::INFINITY, proposed);
+    for kappa in MIXED {
+        let candidate = of(kappa);
+        let stays = if before == Some(kappa) { SAME_SCORE } else { 0.0 };
+        let score = visible.score(&candidate) - stays;
+        if score < best.0 {
+            best = (score, candidate);
+        }
+    }
+    best.1
+}
+
+/// The rows x, y and w of a map on the chart, w 1 in the middle.
+fn rows_of(map: &Map, rays: &Rays, middle: DVec2) -> Rows {
+    let [x, y, _, w] = map.rows.map(|row| rays.functional(&row));
+    let scale = w.at(middle).recip();
+    [x, y, w].map(|row| row.scaled(scale))
+}
+
+/// The same before it was mixed, and by how much it had been weakened then; `None` where nothing was left of what was found.
+fn unmixed(map: &Map, rays: &Rays, middle: DVec2) -> Option<(Rows, f64)> {
+    if !map.mixed.is_finite() {
+        return None;
+    }
+    let [x, y, w] = rows_of(map, rays, middle);
+    // The other two have a multiple of the mixed w in them, which is where the window is.
+    let [x, y] = [x, y].map(|row| row.plus(&w.scaled(-row.at(middle))));
+    let times = 1.0 + map.mixed;
+    let w = Functional { slope: w.slope * times, constant: w.constant * times - map.mixed };
+    Some(([x, y, w], (map.weakening * times - map.mixed).max(0.0)))
 }
 
 /// A homography, and the worst that it makes of what is visible.
@@ -170,14 +229,15 @@ impl Search {
         edges: impl Iterator<Item = (DVec3, DVec3)>,
         shape: f64,
     ) -> Self {
-        let Visible { view, rays, middle, .. } = *visible;
+        let Visible { view, rays, middle, eye_depth, .. } = *visible;
+        let nearest = NEAREST * eye_depth.max;
         let mut chart = Draft::chart(middle, shape);
-        visible.points.clone().for_each(|vertex| chart.include(rays, view, vertex));
+        visible.points.clone().for_each(|vertex| chart.include(rays, view, nearest, vertex));
         let (vertices, watched) = (chart.points().len(), chart.clone());
         // The footprint of a texel is measured across the ray. Rays from a position slant towards both ends of an edge, and
         // its long side may look shorter there than between them.
         if rays.local {
-            edges.for_each(|(a, b)| chart.include(rays, view, (a + b) * 0.5));
+            edges.for_each(|(a, b)| chart.include(rays, view, nearest, (a + b) * 0.5));
         }
         Self { chart, vertices, watched, draft: Draft::EMPTY, next: Draft::EMPTY }
     }

@@ -12,7 +12,7 @@ use crate::clip_space::{TextureOrigin, YAxis};
 use crate::convex::{Plane, matrix_from_rows};
 use crate::light::Light;
 use crate::quality::{DepthFormat, Footprint};
-use crate::settings::{Origin, Settings};
+use crate::settings::Settings;
 use crate::view::View;
 use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec4};
 
@@ -76,7 +76,7 @@ pub struct Paraboloid {
 }
 
 impl Paraboloid {
-    /// The matrix to upload: a position, in world space or relative to the eye ([`Origin::Eye`]), to
+    /// The matrix to upload: a position, relative to [`Self::origin`], to
     /// `q = (direction · r, near) / (far − near)`, with r the distance from the light and the direction in the frame of
     /// the map.
     #[must_use]
@@ -246,12 +246,10 @@ impl Paraboloid {
         self.far - self.near
     }
 
-    /// What the f32 matrix takes positions relative to.
-    fn origin(&self) -> DVec3 {
-        match self.settings.origin() {
-            Origin::World => DVec3::ZERO,
-            Origin::Eye => self.view.eye(),
-        }
+    /// What positions are relative to in the f32 matrix, see [`Map::origin`](crate::Map::origin).
+    #[must_use]
+    pub fn origin(&self) -> DVec3 {
+        self.settings.origin().of(&self.view, &self.light)
     }
 
     /// Texels for a step of 1 in u or v.

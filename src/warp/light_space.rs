@@ -1,6 +1,6 @@
 //! The light-space perspective: LiSPSM.
 
-use super::{MAX_RATIO, Proposed, Visible};
+use super::{MAX_RATIO, NEAREST, Proposed, Visible};
 use crate::refusal::Refusal;
 use crate::view::Lens;
 use glam::{DVec2, DVec3};
@@ -26,7 +26,8 @@ use glam::{DVec2, DVec3};
 /// the middle of R: one formula holds for every class. As the light turns into the view h becomes constant, and c fades
 /// to the uniform map by itself.
 ///
-/// z_n is the least eye depth of R, not that of the near plane: what lies before all that is visible is worth no texel.
+/// z_n is the least eye depth of R, not that of the near plane: what lies before all that is visible is worth no texel. Nor is it
+/// less than [`NEAREST`] of the largest: what lies there most often is air.
 ///
 /// # Errors
 ///
@@ -39,7 +40,7 @@ pub(crate) fn propose<P: Iterator<Item = DVec3> + Clone>(visible: &Visible<'_, P
     let mut c = rays.depth_across(view, visible.along);
     let depth = visible.range(|ray| c.at(ray));
     // Rounding may leave a point of R just before the near plane.
-    let near = visible.eye_depth.min.max(view.near());
+    let near = visible.eye_depth.min.max(view.near()).max(NEAREST * visible.eye_depth.max);
     // A vector's square root is there without the standard library too.
     let geometric_mean = DVec2::splat(near * (near + depth.max - depth.min)).sqrt().x;
     c.constant += near + geometric_mean - depth.min;

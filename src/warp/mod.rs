@@ -6,13 +6,16 @@
 pub(crate) mod light_space;
 pub(crate) mod perspective;
 pub(crate) mod trapezoidal;
+mod worth;
 
-use crate::bounds::{Interval, most};
+use crate::bounds::{Interval, Rectangle, most};
 use crate::convex::Plane;
 use crate::homography::Frame;
 use crate::rays::{Functional, Rays};
+use crate::rounding::{AWAY_FROM_LAMP, UNITS};
 use crate::view::View;
 use glam::{DVec2, DVec3, DVec4};
+pub(crate) use worth::Samples;
 
 /// What a warp is proposed for, and what limits it.
 pub(crate) struct Visible<'a, P> {
@@ -34,6 +37,10 @@ pub(crate) struct Visible<'a, P> {
     pub(crate) origin: DVec3,
     /// The length that is too small to see.
     pub(crate) least: f64,
+    /// Points that stand for what is seen of it.
+    pub(crate) samples: &'a Samples,
+    /// How large w has to be for f32.
+    pub(crate) precision: Precision,
 }
 
 /// A warp that is valid for what it was proposed for: c > 0 on R, and within what f32 can evaluate.
@@ -43,13 +50,16 @@ pub(crate) struct Proposed {
     pub(crate) warp: Functional,
     /// The part of it, there, that is the uniform map's w: how much the warp was weakened by.
     pub(crate) weakening: f64,
+    /// The κ of [`Self::mixed_by`] in it, where the best map was mixed.
+    pub(crate) mixed: f64,
     /// How the window lies there.
     pub(crate) frame: Frame,
 }
 
 impl Proposed {
     /// No warp.
-    pub(crate) const UNIFORM: Self = Self { warp: Functional::ONE, weakening: 1.0, frame: Frame::CHART };
+    pub(crate) const UNIFORM: Self =
+        Self { warp: Functional::ONE, weakening: 1.0, mixed: 0.0, frame: Frame::CHART };
 }
 
 impl<P: Iterator<Item = DVec3> + Clone> Visible<'_, P> {
@@ -58,6 +68,22 @@ impl<P: Iterator<Item = DVec3> + Clone> Visible<'_, P> {
         let mut range = Interval::EMPTY;
         self.points.clone().for_each(|point| range.include(function(self.rays.through(point).0)));
         range
+    }
+
+    /// The rows of a window that holds R, its sides at −1 and 1.
+    fn fitted(&self, [x, y, w]: [Functional; 3]) -> [Functional; 3] {
+        let (mut across, mut along) = (Interval::EMPTY, Interval::EMPTY);
+        for point in self.points.clone() {
+            let (ray, _) = self.rays.through(point);
+            across.include(x.at(ray) / w.at(ray));
+            along.include(y.at(ray) / w.at(ray));
+        }
+        in_window([x, y, w], &Rectangle::over(&across, &along))
+    }
+
+    /// How a map compares with the uniform one, see [`Samples::score`].
+    pub(crate) fn score(&self, proposed: &Proposed) -> f64 {
+        self.samples.score(&self.fitted(proposed.frame.rows(self.middle, &proposed.warp)))
     }
 
     /// The warp `c + κ·w`, with w that of the uniform map and κ ≥ 0 the least number for which, at every vertex of R and at
@@ -82,20 +108,36 @@ impl<P: Iterator<Item = DVec3> + Clone> Visible<'_, P> {
             let w = rays.w.at(point);
             let here = covector.at(point) / w;
             ratio.include(here);
-            let missing = PRECISION * size(warp_terms) / w - here;
+            let part =
+                |terms| size(terms) * most(self.precision.part / most(w, self.precision.away), LEAST_PRECISION / w);
+            let missing = part(warp_terms) - here;
             if missing > 0.0 {
-                for_f32 = most(for_f32, missing / most(1.0 - PRECISION * size(uniform_terms) / w, 0.5));
+                for_f32 = most(for_f32, missing / most(1.0 - part(uniform_terms), 0.5));
             }
         }
         let for_ratio = (ratio.max - most_ratio * ratio.min) / (most_ratio - 1.0);
         let kappa = for_ratio.max(for_f32).max(0.0);
         let warp = Functional { constant: warp.constant + kappa, ..warp };
         let scale = warp.at(self.middle).recip();
-        Proposed { warp: warp.scaled(scale), weakening: kappa * scale, frame: Frame::CHART }
+        Proposed { warp: warp.scaled(scale), weakening: kappa * scale, mixed: 0.0, frame: Frame::CHART }
     }
 }
 
+/// The rows x, y and w of a map whose window is at −1 and 1, from those with the window at some rectangle.
+fn in_window([x, y, w]: [Functional; 3], window: &Rectangle) -> [Functional; 3] {
+    let row = |row: Functional, centre: f64, half: f64| row.plus(&w.scaled(-centre)).scaled(half.recip());
+    [row(x, window.centre.x, window.half.x), row(y, window.centre.y, window.half.y), w]
+}
+
 impl Proposed {
+    /// The warp c + κ·w, with w that of the uniform map, both 1 at the middle.
+    pub(crate) fn mixed_by(self, kappa: f64) -> Self {
+        let scale = (1.0 + kappa).recip();
+        let Functional { slope, constant } = self.warp;
+        let warp = Functional { slope: slope * scale, constant: (constant + kappa) * scale };
+        Self { warp, weakening: (self.weakening + kappa) * scale, ..self }
+    }
+
     /// The same in a window whose middle line from the bottom to the top goes, when the warp bends it, through the eye as the
     /// light sees it: what the view shows to the left and to the right lies to the left and to the right of such a line, and a
     /// frustum seen from above fills the window instead of a wedge of it.
@@ -123,9 +165,62 @@ impl Proposed {
 /// Twice the slope that a window's sides may lean by.
 const MAX_SHEAR: f64 = 32.0;
 
-/// w is at least this part of the terms that it is summed from: eight f32 roundings of them are then 1/2000 of w, half
-/// a texel of a 2048² map.
-const PRECISION: f64 = 1.0 / 1024.0;
+/// What is visible nearer to the eye than this part of the depth of the farthest counts as if it stood there.
+///
+/// A view begins at a near plane that most often is in the air: with nothing known of what is seen, a search for the least worst
+/// texel over R would draw texels there, and with near planes of a thousandth leave none for anything else.
+pub(crate) const NEAREST: f64 = 1.0 / 256.0;
+
+/// How large w has to be for f32.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Precision {
+    /// The least part that it may be of the terms that it is summed from, against the uniform map's w.
+    part: f64,
+    /// The uniform map's w from which on that is asked; beside a lamp it is [`LEAST_PRECISION`].
+    away: f64,
+}
+
+impl Precision {
+    /// The more of a texel f32 takes in the uniform map already, the less is left to a warp.
+    ///
+    /// f32 carries a place in a warped map by w's rounding, which is a part of w as large as its terms are over w. What it carries
+    /// one by in the uniform map, in texels, is there whatever the warp; texels smaller than that noise are worth nothing, and depth,
+    /// which has the longer a range the more w varies, is off by more than in the uniform map. Six times that part of a texel is a
+    /// choice by measure (`cargo test --test precision`). Beside a lamp, where noise is hundreds of times larger than on anything
+    /// that is lit by it, none is counted.
+    pub(crate) fn new(
+        rays: &Rays,
+        points: impl Iterator<Item = DVec3>,
+        origin: DVec3,
+        along: &Interval,
+        sides: DVec2,
+    ) -> Self {
+        let away = if rays.local { AWAY_FROM_LAMP * along.max } else { 1.0 };
+        let offset = DVec2::new(rays.u.at(origin), rays.v.at(origin)).length();
+        let (mut reach, mut noise) = (0.0, 0.0);
+        for point in points {
+            let (ray, w) = rays.through(point);
+            reach = most(reach, ray.length());
+            noise = most(noise, UNITS * ((point - origin).abs().element_sum() + offset) / most(w, away));
+        }
+        let texel = 2.0 * reach / sides.min_element();
+        // A window without any extent has no warp.
+        let is_large = TIMES_NOISE * noise < MOST_PRECISION * texel;
+        Self {
+            part: if is_large { most(TIMES_NOISE * noise / texel, LEAST_PRECISION) } else { MOST_PRECISION },
+            away,
+        }
+    }
+}
+
+/// How many times the part of a texel that f32 takes.
+const TIMES_NOISE: f64 = 6.0;
+
+/// w is at least this part of its terms in the most precise maps.
+const LEAST_PRECISION: f64 = 1.0 / 1024.0;
+
+/// In the least precise ones it is this part, which leaves next to no warp.
+const MOST_PRECISION: f64 = 0.5;
 
 /// The largest ratio of w over R.
 pub(crate) const MAX_RATIO: f64 = 1e6;

@@ -1,7 +1,7 @@
 //! The camera's own perspective: perspective shadow maps.
 
-use super::{MAX_RATIO, Proposed, Visible};
-use crate::bounds::Interval;
+use super::{MAX_RATIO, NEAREST, Proposed, Visible};
+use crate::bounds::{Interval, most};
 use crate::convex::Plane;
 use crate::perspective::after_perspective;
 use glam::DVec3;
@@ -33,17 +33,18 @@ pub(crate) fn propose<P: Iterator<Item = DVec3> + Clone>(
     visible.weakened(&polar, allowed_ratio(depth, visible))
 }
 
-/// By how much c may vary over R, against the uniform map's w: by no more than the camera's own depth does. A warp is there
-/// to undo the camera's perspective, and more than that only wastes texels. Where the light makes an angle θ with the view,
+/// By how much c may vary over R, against the uniform map's w: by no more than the camera's own depth does, from [`NEAREST`] of
+/// the largest on. A warp is there to undo the camera's perspective, and more than that only wastes texels. Where the light makes an angle θ with the view,
 /// depth varies along its rays as well, which no warp can follow, and the part above 1 is multiplied by sin⁴ θ: a light at
 /// right angles may use it all, a light along the view none. The exponent is a choice by measure (`cargo run --release
 /// --example survey`): with smaller ones more views are worse off than without a warp.
 fn allowed_ratio<P: Iterator<Item = DVec3> + Clone>(depth: &Plane, visible: &Visible<'_, P>) -> f64 {
     /// A view without perspective has ratio 1 and is left with the uniform map; the least above 1 keeps κ finite.
     const ALMOST_UNIFORM: f64 = 1.0 + 1.0 / 1024.0;
+    let nearest = NEAREST * visible.points.clone().fold(0.0, |far, point| most(far, depth.at(point)));
     let (mut eye_depth, mut uniform) = (Interval::EMPTY, Interval::EMPTY);
     for point in visible.points.clone() {
-        eye_depth.include(depth.at(point));
+        eye_depth.include(most(depth.at(point), nearest));
         uniform.include(visible.rays.w.at(point));
     }
     let depth_ratio = if eye_depth.min > 0.0 { eye_depth.max / eye_depth.min } else { f64::INFINITY };

@@ -32,6 +32,12 @@ struct Candidate([f64; 5]);
 /// The part of a pixel that is stepped beside a vertex.
 const BESIDE: f64 = 1e-6;
 
+/// The depth from which on points count by their own depth: nearer ones, in the air before all that is seen, count as if they
+/// stood there.
+pub(super) fn nearest(view: &View, points: &[DVec3]) -> f64 {
+    points.iter().map(|&point| view.depth(point)).fold(0.0, f64::max) / 256.0
+}
+
 impl Plane {
     /// `None` where the light has some vertex beside it or behind. The map is so many times as wide as high.
     pub(super) fn new(view: &View, light: &Light, vertices: &[DVec3], shape: f64) -> Option<Self> {
@@ -46,9 +52,10 @@ impl Plane {
                 (along > 0.05 * arm.length()).then(|| DVec2::new(right.dot(arm), up.dot(arm)) / along)
             }
         };
+        let nearest = nearest(view, vertices);
         let on_plane = |&point: &DVec3| {
             let (side, other) = ray(point).any_orthonormal_pair();
-            let pixel = 2.0 * view.half_height(view.depth(point));
+            let pixel = 2.0 * view.half_height(view.depth(point).max(nearest));
             let place = onto(point)?;
             let beside = [side, other]
                 .map(|across| onto(point + across * (pixel * BESIDE)).map(|beside| (beside - place) / BESIDE));

@@ -5,12 +5,14 @@
 #[path = "../arbitrary/mod.rs"]
 mod arbitrary;
 mod exhaustive;
+mod found;
 mod frames;
 #[path = "../outdoors/mod.rs"]
 mod outdoors;
 
 use arbitrary::{FORMS, Together, case, run};
 use exhaustive::Plane;
+use found::{of_form, of_search};
 use glam::DVec3;
 use outdoors::Kind;
 use proptest::prelude::*;
@@ -49,13 +51,8 @@ fn points(focus: &Focus<'_>) -> Vec<DVec3> {
     points
 }
 
-/// The worst aliasing over points.
-fn worst(map: &Map, points: &[DVec3]) -> f64 {
-    points.iter().filter_map(|&point| map.aliasing(point)).fold(0.0, f64::max)
-}
-
-/// The search finds the best map to within a twentieth in 95 % of the cases where f32 does not hold it back, and the most
-/// thorough one in 97 %; the light's kind makes no difference.
+/// The search finds the best map to within a twentieth in 95 % of the cases where anything of it is left, and the most thorough one
+/// in 97 %; the light's kind makes no difference.
 #[test]
 fn comes_within_a_twentieth_of_an_exhaustive_search() {
     comes_within_a_twentieth(&settings(), 100, [0.95, 0.97]);
@@ -87,21 +84,20 @@ fn comes_within_a_twentieth(settings: &Settings, cases: usize, [good, thorough]:
                 let outcome = focus.fit(&settings.with_warp(Warp::Best(effort)));
                 outcome.map().copied()
             };
-            let Some(one) = best_map(Effort::Good) else { continue };
+            let found = EFFORTS.map(|effort| best_map(effort).and_then(|map| of_search(&focus, &map, &points)));
             tried += 1;
-            if one.weakening() > 0.0 {
+            let [Some(closed), Some(rough), Some(good), Some(thorough)] = found else {
                 held += 1;
                 continue;
-            }
+            };
             let least = plane.least_worst(60, tried as u64) * scale;
-            for (ratios, effort) in ratios.iter_mut().zip(EFFORTS) {
-                let map = best_map(effort).expect("it is one with any effort");
-                ratios.push(worst(&map, &points) / least);
+            for (ratios, worst) in ratios.iter_mut().zip([closed, rough, good, thorough]) {
+                ratios.push(worst / least);
             }
         }
-        assert!(held * 10 <= tried, "f32 held back {held} of {tried}");
+        assert!(held * 2 <= tried, "nothing left of what was found in {held} of {tried}");
         println!(
-            "{kind:?}, {width} by {height}: worst aliasing over the exhaustive search's, {} cases, {held} held back by f32",
+            "{kind:?}, {width} by {height}: worst aliasing over the exhaustive search's, {} cases, {held} left uniform",
             ratios[0].len()
         );
         for (ratios, effort) in ratios.iter_mut().zip(EFFORTS) {
@@ -143,16 +139,16 @@ fn is_never_worse_than_a_closed_form() {
         if padding(&best) > MOST_PADDING {
             return;
         }
-        compared.set(compared.get() + 1);
         let points = points(&focus);
-        let unpadded = worst(&best, &points) * (1.0 - padding(&best));
+        let Some(found) = of_search(&focus, &best, &points) else { return };
+        compared.set(compared.get() + 1);
         for form in FORMS {
             // Of a list's casters none may be in the window of another map.
-            let Some(form) = fitted(form).map(|form| worst(&form, &points)) else { continue };
-            assert!(unpadded <= form * (1.0 + 1e-6), "{unpadded} of {form}");
+            let Some(form) = fitted(form).map(|form| of_form(&focus, &form, &points)) else { continue };
+            assert!(found <= form * (1.0 + 1e-6), "{found} of {form}");
         }
     });
-    assert!(compared.get() * 2 > all.get(), "{} of {}", compared.get(), all.get());
+    assert!(compared.get() * 4 > all.get(), "{} of {}", compared.get(), all.get());
 }
 
 /// A map that is fitted again from itself, with no other view or light, is as good and stays where it is.
@@ -165,10 +161,11 @@ fn a_map_of_the_same_frame_is_kept() {
         let Some(&first) = focus.fit(&settings).map() else { return };
         let again = focus.fit_from(&first, &settings);
         let again = again.map().expect("a map as before");
-        if padding(&first).max(padding(again)) <= MOST_PADDING && first.weakening() == 0.0 {
+        if padding(&first).max(padding(again)) <= MOST_PADDING {
             let points = points(&focus);
-            let (before, after) = (worst(&first, &points), worst(again, &points));
-            assert!(after * (1.0 - padding(again)) <= before * (1.0 + 1e-6), "{after} after {before}");
+            let found = |map| of_search(&focus, map, &points);
+            let (Some(before), Some(after)) = (found(&first), found(again)) else { return };
+            assert!(after <= before * (1.0 + 1e-6), "{after} after {before}");
         }
     });
 }

@@ -111,12 +111,9 @@ fn along_axis(map: &Map, light: &Light, point: DVec3) -> f64 {
 fn offsets_in_f32_are_the_ones_in_f64() {
     for light in [sun(), lamp()] {
         for clip in [ClipSpace::WGPU, ClipSpace::WGPU.reversed(), ClipSpace::OPENGL, ClipSpace::VULKAN.reversed()] {
-            for origin in [Origin::World, Origin::Eye] {
+            for origin in [Origin::World, Origin::Eye, Origin::Light] {
                 let map = outdoors(&light, &Settings::default().with_clip(clip).with_origin(origin));
-                let about = match origin {
-                    Origin::World => DMat4::IDENTITY,
-                    Origin::Eye => DMat4::from_translation(view().eye()),
-                };
+                let about = DMat4::from_translation(map.origin());
                 for offset in [Offset::world(0.1), Offset::relative(0.01), Offset::depth(1e-3)].map(Result::unwrap)
                 {
                     let matrix = map.texture_from_world_with(&offset) * about;

@@ -16,7 +16,7 @@ fn no_plane_shadows_itself() {
         let together = Together::of(&case);
         let focus = together.focus();
         let Outcome::Map(map) = focus.fit(&settings) else { return };
-        let card = Card::new(&map, &together.view);
+        let card = Card::new(&map);
         let bias = map.bias(how.format, how.reach).expect("a legal reach");
         for (i, point) in points_of(&focus.visible(), seed).into_iter().enumerate() {
             if !together.is_served(point) {
@@ -41,7 +41,7 @@ fn less_is_not_enough() {
         let together = Together::of(&case);
         let focus = together.focus();
         let Outcome::Map(map) = focus.fit(&settings) else { return };
-        let card = Card::new(&map, &together.view);
+        let card = Card::new(&map);
         let bias = map.bias(how.format, how.reach).expect("a legal reach");
         let count = |of: &Cell<u32>, bad: &Cell<u32>, margin: Option<f64>| {
             let Some(margin) = margin else { return };
@@ -77,7 +77,7 @@ fn places_are_as_quiet_as_the_window_says() {
         let together = Together::of(&case);
         let focus = together.focus();
         let Outcome::Map(map) = focus.fit(&settings) else { return };
-        let card = Card::new(&map, &together.view);
+        let card = Card::new(&map);
         for point in points_of(&focus.visible(), seed) {
             if !together.is_served(point) {
                 continue;

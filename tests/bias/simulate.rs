@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::{DMat4, DVec2, DVec3, DVec4, Mat4, Vec4Swizzles};
 use proptest::prelude::*;
-use shadowfit::{ClipSpace, DepthBias, DepthFormat, DepthRange, Light, Map, Origin, TextureOrigin, View, YAxis};
+use shadowfit::{ClipSpace, DepthBias, DepthFormat, DepthRange, Light, Map, TextureOrigin, YAxis};
 
 use super::FORMATS;
 use super::arbitrary::{Numbers, sides};
@@ -25,11 +25,8 @@ pub(crate) struct Card<'a> {
 }
 
 impl<'a> Card<'a> {
-    pub(crate) fn new(map: &'a Map, view: &View) -> Self {
-        let origin = match map.settings().origin() {
-            Origin::World => DVec3::ZERO,
-            Origin::Eye => view.eye(),
-        };
+    pub(crate) fn new(map: &'a Map) -> Self {
+        let origin = map.origin();
         let sides = sides(map.settings());
         let reversed = map.settings().clip().depth.is_reversed();
         Self { map, origin, exact: map.texture_from_world(), sides, reversed }

@@ -135,9 +135,9 @@ impl Bits<'_> {
         Ok(settings
             .with_border(self.whole())?
             .with_warp(WARPS[self.below(WARPS.len())])
-            .with_shift(shifts[self.below(3)])
+            .with_shift(shifts[self.below(2)])
             .with_clip(self.clip())
-            .with_origin([Origin::World, Origin::Eye][self.below(2)]))
+            .with_origin([Origin::World, Origin::Eye, Origin::Light][self.below(3)]))
     }
 
     fn boxes(&mut self) -> Vec<Aabb> {

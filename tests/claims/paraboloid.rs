@@ -33,13 +33,6 @@ pub(crate) fn shader(map: &Paraboloid, position: Vec3) -> Shader {
     }
 }
 
-pub(crate) fn origin(map: &Paraboloid) -> DVec3 {
-    match map.settings().origin() {
-        Origin::World => DVec3::ZERO,
-        Origin::Eye => map.view().eye(),
-    }
-}
-
 /// Asserts that f32 moves what is visible by no more than a map says.
 pub(crate) fn carries_no_farther_than_it_says(case: &Case, settings: &Settings, seed: u64) {
     let together = Together::of(case);
@@ -51,7 +44,7 @@ pub(crate) fn carries_no_farther_than_it_says(case: &Case, settings: &Settings, 
                 _ => continue,
             };
             let rounding = map.rounding(point);
-            let shader = shader(map, (point - origin(map)).as_vec3());
+            let shader = shader(map, (point - map.origin()).as_vec3());
             let off = shader.place - exact;
             assert!(off.z.abs() <= rounding.depth, "{point}: depth off by {}, {rounding:?}", off.z);
             let texels = off.truncate().length() * texels_per_unit(settings);
@@ -104,7 +97,7 @@ pub(crate) fn holds_what_it_must(case: &Case, settings: &Settings, seed: u64, am
         let extent = scene.max(point.abs()).max(map.position().abs()).element_sum();
         assert!(behind <= 512.0 * f64::EPSILON * extent, "{point} is {behind} behind the rim");
         let rounding = map.rounding(point);
-        let depth = shader(map, (point - origin(map)).as_vec3()).place.z;
+        let depth = shader(map, (point - map.origin()).as_vec3()).place.z;
         // Where f32 does not know the near distance from nothing it is as it is.
         let is_near_known = map.near() > 0.75 * together.light.near();
         assert!(depth >= 0.0 || !is_near_known, "{point} is at {depth}, {rounding:?}");

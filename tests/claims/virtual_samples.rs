@@ -151,10 +151,7 @@ pub(crate) fn shaders_find_them(case: &Case, settings: &Settings, seed: u64) {
     let together = Together::of(case);
     let focus = together.focus();
     let Outcome::Map(map) = focus.fit(settings) else { return };
-    let origin = match settings.origin() {
-        Origin::World => DVec3::ZERO,
-        Origin::Eye => together.view.eye(),
-    };
+    let origin = map.origin();
     let texture = map.texture_from_world() * DMat4::from_translation(origin);
     for (point, normal, _) in planes(&map, &points_of(&focus.visible(), seed), seed) {
         if !together.is_served(point) {

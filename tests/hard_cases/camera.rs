@@ -77,7 +77,7 @@ fn row_27_near_plane_at_the_eye() {
                     map.warp_ratio()
                 );
                 for &p in Focus::new(&view, &light, &scene).visible().vertices() {
-                    assert!(is_inside(in_f32(&map, &view, p)), "{near:e}, {far}, {light:?}: {p}");
+                    assert!(is_inside(in_f32(&map, p)), "{near:e}, {far}, {light:?}: {p}");
                 }
             }
         }
@@ -103,7 +103,7 @@ fn row_28_fields_of_view() {
         assert!(!visible.is_empty(), "{degrees}");
         if let Some(map) = focus.fit(&settings()).map() {
             for &p in visible.vertices() {
-                assert!(is_inside(in_f32(map, &view, p)), "{degrees}: {p}");
+                assert!(is_inside(in_f32(map, p)), "{degrees}: {p}");
             }
         } else {
             // All but a half space holds the lamp.

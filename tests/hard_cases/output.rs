@@ -30,7 +30,7 @@ fn row_29_rounding_to_f32() {
                 let visible = focus.visible();
                 let body = focus.body(shadowfit::Form::Tight);
                 for &p in visible.vertices() {
-                    assert!(is_inside(in_f32(&map, &view, p)), "{light:?}, {warp:?}: {p} of R");
+                    assert!(is_inside(in_f32(&map, p)), "{light:?}, {warp:?}: {p} of R");
                     // H on the ray: as far towards the light as its planes go.
                     let towards = light.direction_from(p);
                     let exit = body.planes().filter_map(|plane| {
@@ -39,7 +39,7 @@ fn row_29_rounding_to_f32() {
                     });
                     let most = light.position().map_or(f64::INFINITY, |l| l.distance(p) - 1.0);
                     let caster = p + towards * exit.fold(most, f64::min).max(0.0);
-                    assert!(is_inside(in_f32(&map, &view, caster)), "{light:?}, {warp:?}: {caster} of H");
+                    assert!(is_inside(in_f32(&map, caster)), "{light:?}, {warp:?}: {caster} of H");
                 }
             }
         }
@@ -90,7 +90,7 @@ fn row_31_receiver_deeper_than_the_farthest_caster() {
             let focus = Focus::new(&view, &light, &scene);
             let map = focus.fit(&settings()).map().copied().expect("the caster shades the wall");
             for &p in focus.visible().vertices() {
-                let clip = in_f32(&map, &view, p);
+                let clip = in_f32(&map, p);
                 assert!(clip.z <= clip.w, "{wall}, {light:?}: {p} is clipped at {}", clip.z / clip.w);
                 let (min, max) = (caster[0].min.as_dvec3(), caster[0].max.as_dvec3());
                 for corner in [min, max] {

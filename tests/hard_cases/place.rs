@@ -1,7 +1,7 @@
 //! Where maps put points, and how far rounding can carry them.
 
 use shadowfit::glam::{DVec3, Vec4};
-use shadowfit::{Body, ClipSpace, Focus, Light, Map, Origin, Outcome, Scene, Settings, Shift, View, Warp};
+use shadowfit::{Body, ClipSpace, Focus, Light, Map, Outcome, Scene, Settings, Shift, View, Warp};
 
 use crate::tables::arithmetic::{Big, Real};
 use crate::tables::linear::{V4, dot, homogeneous};
@@ -60,11 +60,8 @@ pub(crate) fn slack(map: &Map, point: DVec3, reach: f64) -> f64 {
 }
 
 /// What a renderer's f32 makes of a position.
-pub(crate) fn in_f32(map: &Map, view: &View, point: DVec3) -> Vec4 {
-    let origin = match map.settings().origin() {
-        Origin::World => DVec3::ZERO,
-        Origin::Eye => view.eye(),
-    };
+pub(crate) fn in_f32(map: &Map, point: DVec3) -> Vec4 {
+    let origin = map.origin();
     map.matrix() * (point - origin).as_vec3().extend(1.0)
 }
 

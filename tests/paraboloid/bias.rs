@@ -6,7 +6,7 @@ use shadowfit::{DepthFormat, Offset, Origin, Problem, Settings};
 
 use super::{both, direction_about, from_light};
 use crate::arbitrary::{Case, LightParams, Numbers, Pose, SceneParams, ViewParams, case, run, settings};
-use crate::claims::paraboloid::{noise_is_at_least_that_of_points, origin, texels_per_unit};
+use crate::claims::paraboloid::{noise_is_at_least_that_of_points, texels_per_unit};
 
 /// What the shader writes for the texel at a place on the plane where `plane` · x = 1, the light in the middle, as a
 /// distance; in f64.
@@ -124,7 +124,7 @@ fn receivers_are_moved_by_just_what_is_asked_for() {
             (Offset::depth(0.25), 0.25 * range),
             (Offset::world(-0.25), -0.25),
         ] {
-            let q = map.receiver_matrix(&offset.expect("sound")) * (point - origin(&map)).as_vec3().extend(1.0);
+            let q = map.receiver_matrix(&offset.expect("sound")) * (point - map.origin()).as_vec3().extend(1.0);
             let length = q.xyz().length();
             let place = (q.xy() / (length + q.z)).as_dvec2();
             let exact = map.project(point).expect("not behind");

@@ -4,7 +4,7 @@ use crate::arbitrary::{Numbers, Together, case, run, settings, sides};
 use crate::rounds::{Round, Rows, TO_SUN, direction, landscape, rounds, texels};
 use glam::{DMat3, DVec2, DVec3, Mat4, Vec2, Vec3};
 use proptest::prelude::*;
-use shadowfit::{Map, Origin, Outcome, Settings, Warp};
+use shadowfit::{Map, Outcome, Settings, Warp};
 
 /// What the shader does, operation by operation, in f32.
 fn mirrored(matrix: Mat4, centre: Vec3, normal: Vec3, radius: f32, map_sides: Vec2, corner: Vec2) -> [f32; 3] {
@@ -85,10 +85,7 @@ fn the_shader_finds_the_same_bounds_and_the_depth_of_the_disc() {
     run(3000, &(case(), settings(), any::<u64>()), |(case, settings, seed)| {
         let together = Together::of(&case);
         let Outcome::Map(map) = together.focus().fit(&settings) else { return };
-        let origin = match map.settings().origin() {
-            Origin::World => DVec3::ZERO,
-            Origin::Eye => together.view.eye(),
-        };
+        let origin = map.origin();
         let rows = Rows::of(&map, origin, DVec3::ZERO, ROUNDINGS);
         // A matrix about an origin far away cancels terms in f64 that f32 then knows nothing of.
         let cancelled = Rows::new(&map, &together, &case);

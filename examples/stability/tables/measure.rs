@@ -81,7 +81,7 @@ fn of_upload(map: &Map) -> M4<Big> {
 fn origin(setup: &Setup) -> DVec3 {
     match setup.origin {
         Origin::World => DVec3::ZERO,
-        Origin::Eye => setup.camera.eye,
+        Origin::Eye | Origin::Light => setup.camera.eye,
     }
 }
 

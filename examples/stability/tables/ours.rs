@@ -1,15 +1,14 @@
 //! The crate's map, by the formulas of its documentation, in exact numbers.
 //!
 //! What is a choice and not a result is taken as it is: the vertices of R, which grows in doubt (the tables of bodies say
-//! by how much), and from the map's report how large the padded window is and where the depth range begins and ends.
-//! Everything else, from the axes of the camera to the warp and how far it is weakened, is made again from the input, in
-//! another arithmetic, and by other means where there are any: the light's axis by trying all faces.
+//! by how much), and from the map's report how large the padded window is, where the depth range begins and ends and by how much
+//! the warp is weakened. Everything else, from the axes of the camera to the warp, is made again from the input, in another
+//! arithmetic, and by other means where there are any: the light's axis by trying all faces.
 
 use super::arithmetic::{Big, Real};
 use super::linear::{M4, V3, V4, add, at, cross, dot, length, one, sub, through, times, unit, vector};
 use super::setup::{Frame, Lamp, Setup};
 use shadowfit::Map;
-use shadowfit::glam::DVec3;
 
 fn big(value: f64) -> Big {
     Big::of(value)
@@ -21,7 +20,7 @@ pub(crate) fn ours(setup: &Setup, map: &Map) -> M4<Big> {
     let visible: Vec<V3<Big>> = setup.visible().into_iter().map(vector).collect();
     let chart = Chart::new(setup, &frame, &visible);
     let middle = middle(&visible.iter().map(|p| chart.through(p)).collect::<Vec<_>>());
-    let warp = warp(setup, &frame, &visible, &chart, &middle);
+    let warp = warp(setup, &frame, &visible, &chart, &middle, map.weakening());
 
     let zero = {
         let (min, max) = extent(visible.iter().map(|p| at(&chart.along, p)));
@@ -157,14 +156,18 @@ fn widest_margin(directions: &[V3<Big>]) -> V3<Big> {
 }
 
 /// c, 1 at the middle of what is visible.
-fn warp(setup: &Setup, frame: &Frame<Big>, visible: &[V3<Big>], chart: &Chart, middle: &[Big; 2]) -> V4<Big> {
-    const PRECISION: f64 = 1.0 / 1024.0;
+fn warp(
+    setup: &Setup,
+    frame: &Frame<Big>,
+    visible: &[V3<Big>],
+    chart: &Chart,
+    middle: &[Big; 2],
+    weakening: f64,
+) -> V4<Big> {
     let (first, last) = extent(visible.iter().map(|p| at(&frame.depth, p)));
     let near = first.most(big(setup.camera.near));
-    let far = last.clone().most(near.clone() * big(1.0 + 1.0 / 1024.0));
+    let far = last.most(near.clone() * big(1.0 + 1.0 / 1024.0));
     let ratio = near.clone() / far;
-    // A length too small to see, where what is visible is farthest.
-    let unseen = (big(setup.camera.fov_y) / big(2.0)).tan() * last * big(1.0 / 1_073_741_824.0);
     let z = times(
         &sub(&times(&frame.depth, &(big(1.0) + ratio.clone())), &times(&one(), &(big(2.0) * near))),
         &(big(1.0) / (big(1.0) - ratio)),
@@ -180,35 +183,10 @@ fn warp(setup: &Setup, frame: &Frame<Big>, visible: &[V3<Big>], chart: &Chart, m
     let square = dot(&[x.clone(), y.clone(), z_light.clone()], &[x, y, z_light]);
     let polar = sub(&times(&frame.depth, &square), &times(&towards, &w));
 
-    // The least part of the uniform map's w that keeps the warp within its bounds.
+    // Mixed with the uniform map's w by as much as the map says.
     let slopes = chart.functional(&polar);
-    let on_chart = |f: &V3<Big>| f[0].clone() * middle[0].clone() + f[1].clone() * middle[1].clone() + f[2].clone();
-    let about = match setup.origin {
-        shadowfit::Origin::World => vector(DVec3::ZERO),
-        shadowfit::Origin::Eye => frame.eye.clone(),
-    };
-    let terms = |covector: &V4<Big>, p: &V3<Big>| {
-        let arm = sub(p, &about);
-        (0..3).fold(at(covector, &about).abs(), |sum, i| sum + covector[i].abs() * (arm[i].abs() + unseen.clone()))
-    };
-    let mut for_f32 = big(0.0);
-    for p in visible {
-        let w = at(&chart.w, p);
-        let part = |covector: &V4<Big>| big(PRECISION) * terms(covector, p) / w.clone();
-        let missing = part(&polar) - at(&polar, p) / w.clone();
-        for_f32 = for_f32.most(missing / (big(1.0) - part(&chart.w)).most(big(0.5)));
-    }
-    let ratios = visible.iter().map(|p| at(&polar, p) / at(&chart.w, p)).chain([on_chart(&slopes)]);
-    let (least, most) = extent(ratios);
-    let (nearest, farthest) = extent(visible.iter().map(|p| at(&frame.depth, p)));
-    let (least_w, most_w) = extent(visible.iter().map(|p| at(&chart.w, p)));
-    let sine = cross(&chart.axis, &frame.forward);
-    let sine_squared = dot(&sine, &sine);
-    let of_depth = big(1.0) + (farthest / nearest - big(1.0)) * sine_squared.clone() * sine_squared;
-    let allowed = (of_depth * most_w / least_w).most(big(1.0 + 1.0 / 1024.0)).least(big(1e6));
-    let for_ratio = (most - allowed.clone() * least) / (allowed - big(1.0));
-    let kappa = for_ratio.most(for_f32).most(big(0.0));
-    let c = add(&polar, &times(&chart.w, &kappa));
-    let scale = big(1.0) / (on_chart(&slopes) + kappa);
-    times(&c, &scale)
+    let in_middle =
+        slopes[0].clone() * middle[0].clone() + slopes[1].clone() * middle[1].clone() + slopes[2].clone();
+    let part = big(weakening);
+    add(&times(&polar, &((big(1.0) - part.clone()) / in_middle)), &times(&chart.w, &part))
 }

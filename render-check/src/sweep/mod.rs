@@ -94,7 +94,7 @@ pub fn run_shots(gpu: &Gpu, group: &'static str, shots: &[Shot], done: impl Fn()
         let tracer = Tracer::new(&shot.scene.mesh)?;
         let stage = Stage::new(gpu, &tracer, &shot.view, shot.image)?;
         let stage = match shot.origin {
-            Origin::Eye => stage,
+            Origin::Eye | Origin::Light => stage,
             Origin::World => stage.in_world_space()?,
         };
         for (words, spec) in &shot.lights {

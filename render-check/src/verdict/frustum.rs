@@ -28,10 +28,7 @@ impl Frustum {
     pub fn new(map: &Map, eye: DVec3) -> Self {
         let clip_from_world = map.shadow_from_world_in(ClipSpace::WGPU);
         let [x, y, depth, w] = [0, 1, 2, 3].map(|i| clip_from_world.row(i));
-        let origin = match map.settings().origin() {
-            Origin::World => DVec3::ZERO,
-            Origin::Eye => eye,
-        };
+        let origin = map.origin();
         Self { map: *map, x, y, depth, w, origin }
     }
 

@@ -1,0 +1,136 @@
+//! What a warp is worth where surfaces may be: its texels and its bias against the uniform map's.
+
+use super::in_window;
+use crate::bounds::{Rectangle, least, most};
+use crate::focus::Focus;
+use crate::rays::{Functional, Rays};
+use glam::DVec2;
+
+/// Points of R that stand for the surfaces seen in it.
+///
+/// The vertices of R, which a window has to hold, are a poor sample: half of them lie on the near plane, in the air, where a warp is
+/// finest. Surfaces lie somewhere along the rays of the image, most often towards their ends: a few of these rays are cut by S and
+/// L, and three points taken of each, at the end and at a half and a quarter of the way. More rays make no difference
+/// (`cargo test --test precision`).
+pub(crate) struct Samples {
+    samples: [Sample; Self::ACROSS * Self::DOWN * Self::DEPTHS.len()],
+    len: usize,
+    /// Texels of the map across and down.
+    sides: DVec2,
+    local: bool,
+}
+
+/// A point, as a ray of the light.
+#[derive(Clone, Copy)]
+struct Sample {
+    /// Its place on the chart.
+    ray: DVec2,
+    /// World units for a unit step on the chart.
+    size: f64,
+    /// How far depth leans with w there, see [`Samples::cost`].
+    tilt: f64,
+    /// What the uniform map costs.
+    uniform: f64,
+    /// What it counts for: less and less as it leaves R.
+    weight: f64,
+}
+
+/// How far behind a caster a shadow begins, in texels, on a surface that the light meets at 45°: a texel's change of depth times
+/// what [`Map::bias`](crate::Map::bias) takes for the sampler's 2 × 2 texels.
+const BIAS: f64 = 2.0;
+
+impl Samples {
+    const ACROSS: usize = 3;
+    const DOWN: usize = 2;
+    const DEPTHS: [f64; 3] = [1.0, 0.5, 0.25];
+
+    /// Samples of R for maps of so many texels across and down, `window` the uniform map's and its zero depth at a distance
+    /// `along` along the axis.
+    pub(crate) fn new(focus: &Focus<'_>, rays: &Rays, window: &Rectangle, along: f64, sides: DVec2) -> Self {
+        let none = Sample { ray: DVec2::ZERO, size: 0.0, tilt: 0.0, uniform: 0.0, weight: 0.0 };
+        let mut all = Self {
+            samples: [none; Self::ACROSS * Self::DOWN * Self::DEPTHS.len()],
+            len: 0,
+            sides,
+            local: rays.local,
+        };
+        let view = focus.view();
+        let rows = in_window([Functional::U, Functional::V, Functional::ONE], window);
+        for i in 0..Self::ACROSS * Self::DOWN {
+            let place = DVec2::new(
+                ((i % Self::ACROSS) as f64 + 0.5) / Self::ACROSS as f64,
+                ((i / Self::ACROSS) as f64 + 0.5) / Self::DOWN as f64,
+            );
+            let (from, step) = view.ray(place);
+            let (mut near, mut far) = (view.near(), view.far());
+            focus.for_each_plane(|plane| {
+                let (at, change) = (plane.at(from), plane.normal.dot(step));
+                // Where it vanishes the ray is inside for all depths or for none.
+                let depth = -at / change;
+                if change > 0.0 {
+                    near = most(near, depth);
+                } else if change < 0.0 {
+                    far = least(far, depth);
+                } else if at < 0.0 {
+                    far = near;
+                }
+            });
+            for part in Self::DEPTHS {
+                let depth = near + (far - near) * part;
+                let weight = (far - near) / (far.abs() + near.abs());
+                if !(weight > 0.0 && depth.is_finite()) {
+                    continue;
+                }
+                let point = from + step * depth;
+                let (ray, w) = rays.through(point);
+                let beside = rays.along.at(point);
+                let tilt = if rays.local { w * (w / along - 1.0) } else { beside - along };
+                let size = if rays.local { w } else { 1.0 };
+                let mut sample = Sample { ray, size, tilt, uniform: 0.0, weight };
+                let uniform = all.cost(&sample, &rows);
+                if uniform > 0.0 && uniform.is_finite() {
+                    sample.uniform = uniform;
+                    all.samples[all.len] = sample;
+                    all.len += 1;
+                }
+            }
+        }
+        all
+    }
+
+    /// What a map with these rows on the chart, whose sides are at −1 and 1, costs at a point: the mean side of a texel and how far
+    /// behind a caster a shadow begins, in world units; infinite where w is not positive.
+    ///
+    /// A step t of a texel on the chart changes depth along a ray by the slope of the surface times its length, and where w changes
+    /// by `tilt · (∇w · t)/w` besides, with tilt the distance from where depth is zero under a directional light and
+    /// w (w/zero − 1) under another.
+    fn cost(&self, sample: &Sample, [x, y, w]: &[Functional; 3]) -> f64 {
+        let Sample { ray, size, tilt, .. } = *sample;
+        let at = w.at(ray);
+        let gradient = |row: &Functional| (row.slope - w.slope * (row.at(ray) / at)) / at;
+        let (gx, gy) = (gradient(x), gradient(y));
+        let texel = 2.0 / self.sides / gx.perp_dot(gy);
+        let steps = [DVec2::new(gy.y, -gy.x) * texel.x, DVec2::new(-gx.y, gx.x) * texel.y];
+        let shorter = if self.local { 1.0 / (1.0 + ray.length_squared()) } else { 0.0 };
+        let mut cost = 0.0;
+        for step in steps {
+            let along = ray.dot(step);
+            let side = size * DVec2::new(step.length_squared() - along * along * shorter, 0.0).sqrt().x;
+            cost += 0.5 * side * (1.0 + BIAS) + 0.5 * BIAS * (tilt * w.slope.dot(step) / at).abs();
+        }
+        if at > 0.0 && cost >= 0.0 { cost } else { f64::INFINITY }
+    }
+
+    /// How a map with these rows on the chart, whose sides are at −1 and 1, compares with the uniform one: the mean of
+    /// (r − 1)/(r + 1), r the ratio of what they cost at a point, from −1 to 1 and less than 0 where it is better. It counts
+    /// halves and doubles alike.
+    pub(crate) fn score(&self, rows: &[Functional; 3]) -> f64 {
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for sample in &self.samples[..self.len] {
+            let times = least(self.cost(sample, rows) / sample.uniform, 1e12);
+            sum += sample.weight * (times - 1.0) / (times + 1.0);
+            weights += sample.weight;
+        }
+        if weights > 0.0 { sum / weights } else { 0.0 }
+    }
+}
