@@ -1,6 +1,6 @@
 //! The bias that a fitted map needs: with it no plane shadows itself, and no more is added than that takes.
 
-use crate::error::{InputError, Problem, check};
+use crate::error::{Expected, InputError, check};
 use crate::map::Map;
 use crate::offset::Offset;
 use crate::quality::DepthFormat;
@@ -146,14 +146,7 @@ const SLOPE_STEP: f64 = 1.0 / 16.0;
 
 /// A filter's reach, in texels, checked at the door.
 pub(crate) fn checked_reach(reach: f64) -> Result<f64, InputError> {
-    let reach = check::coordinate("reach", reach)?;
-    if reach < 0.5 {
-        return check::fail("reach", Problem::TooSmall);
-    }
-    if reach > f64::from(Settings::MAX_SIZE) {
-        return check::fail("reach", Problem::TooLarge);
-    }
-    Ok(reach)
+    check::within("reach", reach, Expected::Within { least: 0.5, most: Settings::MAX_SIZE.into() })
 }
 
 /// The next multiple of [`SLOPE_STEP`] above a slope.

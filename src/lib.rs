@@ -149,7 +149,7 @@ pub use clip_space::{ClipSpace, DepthRange, TextureOrigin, YAxis};
 pub use convex::{Body, Face, Plane};
 pub use cube::CubeFace;
 pub use cull::Culler;
-pub use error::{InputError, MAX_COORDINATE, MIN_DISTANCE, Problem};
+pub use error::{Expected, Hint, InputError, MAX_COORDINATE, MIN_DISTANCE, Problem};
 pub use filter::Filter;
 pub use fit::{Empty, Outcome, Surrounded, fit};
 pub use focus::{Focus, Form};

@@ -3,7 +3,8 @@
 use crate::angle;
 use crate::convex::Plane;
 use crate::cube::CubeFace;
-use crate::error::{InputError, Problem, check};
+use crate::error::{Hint, InputError, Problem, check};
+use core::f64::consts::{FRAC_PI_2, PI};
 use glam::{DVec3, DVec4};
 
 /// A light: a homogeneous point l and a convex region L outside of which it lights nothing.
@@ -95,9 +96,13 @@ impl Light {
         let axis = check::direction("axis", axis.into())?;
         // A cone narrower than the smallest field of view, or within rounding of a half space, is neither.
         const MARGIN: f64 = 1e-9;
-        if !(half_angle > MARGIN && half_angle < core::f64::consts::FRAC_PI_2 - MARGIN) {
-            return check::fail("half_angle", Problem::AngleOutOfRange);
-        }
+        let half_angle = check::angle("half_angle", half_angle, MARGIN, FRAC_PI_2 - MARGIN).map_err(|error| {
+            error.hinted(match half_angle {
+                _ if (FRAC_PI_2..=PI).contains(&half_angle) => Some(Hint::FullAngle),
+                _ if (PI..=180.0).contains(&half_angle) => Some(Hint::Degrees),
+                _ => None,
+            })
+        })?;
         Self::local(position.into(), near, range, Shape::Spot { axis, half_angle })
     }
 
@@ -144,10 +149,9 @@ impl Light {
     fn local(position: DVec3, near: f64, range: f64, shape: Shape) -> Result<Self, InputError> {
         let position = check::point("position", position)?;
         let near = check::distance("near", near)?;
-        let range = check::distance_or_infinity("range", range)?;
-        if near >= range {
-            return check::fail("range", Problem::OutOfOrder);
-        }
+        let range = check::distance_or_infinity("range", range)
+            .map_err(|error| error.hinted((range == 0.0).then_some(Hint::NoLimit)))?;
+        check::above("range", range, "near", near)?;
         Ok(Self { kind: Kind::Local { position, near, range, shape } })
     }
 

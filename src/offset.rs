@@ -2,7 +2,7 @@
 
 use crate::along::Along;
 use crate::convex::Plane;
-use crate::error::{InputError, Problem, check};
+use crate::error::{Expected, InputError, MAX_COORDINATE, check};
 use glam::DVec4;
 
 /// How much nearer to the light receivers are tested than they are.
@@ -67,10 +67,7 @@ impl Offset {
     ///
     /// Names `"part"` when it is not finite, too large, or less than −1/2: from −1 on there is no such point.
     pub fn relative(part: f64) -> Result<Self, InputError> {
-        let part = check::coordinate("part", part)?;
-        if part < -0.5 {
-            return check::fail("part", Problem::TooSmall);
-        }
+        let part = check::within("part", part, Expected::Within { least: -0.5, most: MAX_COORDINATE })?;
         Ok(Self::of(part, 0.0))
     }
 

@@ -111,8 +111,8 @@ impl Refiner {
         if positions.len() > u32::MAX as usize / 2 {
             return check::fail("positions", Problem::TooMany);
         }
-        for &position in positions {
-            check::point("positions", position)?;
+        for (index, &position) in positions.iter().enumerate() {
+            check::point("positions", position).map_err(|error| error.of_list("positions", index))?;
         }
         let mut work = Work {
             refiner: self,
@@ -122,7 +122,7 @@ impl Refiner {
         };
         for (source, &triangle) in (0..).zip(triangles) {
             if triangle.iter().any(|&index| index as usize >= positions.len()) {
-                return check::fail("triangles", Problem::OutOfRange);
+                return Err(InputError::new("triangles", Problem::OutOfRange).of_list("triangles", source as usize));
             }
             work.triangle(triangle, source)?;
         }
@@ -357,7 +357,7 @@ impl Work<'_> {
     /// Triangulates what is between the vertices on the edges of a triangle, with more vertices inside as needed.
     fn fill(&mut self, corners: [u32; 3], vertices: Vec<Inside>, source: u32) -> Result<(), InputError> {
         // Coordinates are whole numbers and multiples of 2⁻¹², which spade takes.
-        let too_many = |_| InputError { field: "triangles", problem: Problem::TooMany };
+        let too_many = |_| InputError::new("triangles", Problem::TooMany);
         let mut triangulation = DelaunayTriangulation::<Inside>::bulk_load_stable(vertices).map_err(too_many)?;
         let place = |inside: &Inside| {
             let [a, b, c] = corners.map(|index| self.position(index));

@@ -1,7 +1,7 @@
 //! The scene S: bounds of what casts shadows and of what receives them.
 
 use crate::convex::{Plane, PlaneId, Polyhedron, box_planes};
-use crate::error::{InputError, Problem, check};
+use crate::error::{Expected, InputError, Problem, check};
 use glam::{DVec3, Vec3};
 
 /// An axis-aligned box in single precision, as renderers keep them for their objects.
@@ -73,9 +73,9 @@ impl<'a> Scene<'a> {
             if list.is_empty() {
                 return check::fail(field, Problem::Empty);
             }
-            for one in list {
+            for (index, one) in list.iter().enumerate() {
                 checked_box(one.min.as_dvec3(), one.max.as_dvec3())
-                    .map_err(|error| InputError { field, ..error })?;
+                    .map_err(|error| of_boxes(error, field, index))?;
             }
         }
         Ok(Self::of_checked(casters, receivers))
@@ -90,7 +90,28 @@ impl<'a> Scene<'a> {
 
 pub(crate) fn checked_box(min: DVec3, max: DVec3) -> Result<(DVec3, DVec3), InputError> {
     let (min, max) = (check::point("min", min)?, check::point("max", max)?);
-    if min.cmple(max).all() { Ok((min, max)) } else { check::fail("max", Problem::OutOfOrder) }
+    for (axis, (least, most)) in min.to_array().into_iter().zip(max.to_array()).enumerate() {
+        if least > most {
+            let field = ["min.x", "min.y", "min.z"][axis];
+            let expected = Expected::AtLeast { field, value: least };
+            return Err(InputError::new("max", Problem::OutOfOrder).of_axis(axis).got(most).expected(expected));
+        }
+    }
+    Ok((min, max))
+}
+
+/// What [`checked_box`] finds wrong, of a box in a list.
+pub(crate) fn of_boxes(error: InputError, field: &'static str, index: usize) -> InputError {
+    let component = match (error.field, error.component) {
+        ("min", Some("x")) => Some("min.x"),
+        ("min", Some("y")) => Some("min.y"),
+        ("min", Some("z")) => Some("min.z"),
+        ("max", Some("x")) => Some("max.x"),
+        ("max", Some("y")) => Some("max.y"),
+        ("max", Some("z")) => Some("max.z"),
+        (_, other) => other,
+    };
+    InputError { component, ..error }.of_list(field, index)
 }
 
 /// A convex body as the bounds of a scene: a box cut by up to [`ConvexScene::MAX_CUTS`] planes.

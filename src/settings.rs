@@ -1,7 +1,7 @@
 //! How a fit is made.
 
 use crate::clip_space::ClipSpace;
-use crate::error::{InputError, Problem, check};
+use crate::error::{Expected, InputError, check};
 use crate::focus::Form;
 use crate::light::Light;
 use crate::view::View;
@@ -233,9 +233,8 @@ impl Settings {
     ///
     /// Names `"border"` when less than half of a side of the map would be left.
     pub fn with_border(self, border: u32) -> Result<Self, InputError> {
-        if border > self.map_size() / 4 {
-            return check::fail("border", Problem::TooLarge);
-        }
+        let most = (self.map_size() / 4).into();
+        check::within("border", border.into(), Expected::Within { least: 0.0, most })?;
         Ok(Self { border, ..self })
     }
 
@@ -332,12 +331,7 @@ impl Settings {
 /// Names the size that is out of bounds.
 fn check_sizes<const N: usize>(sizes: [(&'static str, u32); N]) -> Result<(), InputError> {
     for (field, size) in sizes {
-        if size < 4 {
-            return check::fail(field, Problem::TooSmall);
-        }
-        if size > Settings::MAX_SIZE {
-            return check::fail(field, Problem::TooLarge);
-        }
+        check::within(field, size.into(), Expected::Within { least: 4.0, most: Settings::MAX_SIZE.into() })?;
     }
     Ok(())
 }

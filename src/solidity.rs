@@ -2,7 +2,7 @@
 
 extern crate alloc;
 
-use crate::error::{InputError, MAX_COORDINATE, Problem, check};
+use crate::error::{InputError, Problem, check};
 use alloc::vec::Vec;
 use glam::DVec3;
 
@@ -103,17 +103,15 @@ impl Solidity {
             return check::fail("triangles", Problem::TooMany);
         }
         let mut corners = Vec::with_capacity(3 * triangles.len());
-        for &index in triangles.iter().flatten() {
+        for (at, &index) in triangles.iter().flatten().enumerate() {
             let Some(&position) = positions.get(index as usize) else {
-                return check::fail("triangles", Problem::OutOfRange);
+                return Err(InputError::new("triangles", Problem::OutOfRange)
+                    .got(index.into())
+                    .of_list("triangles", at / 3));
             };
             let position: DVec3 = position.into();
-            if !position.is_finite() {
-                return check::fail("positions", Problem::NotFinite);
-            }
-            if position.abs().max_element() > MAX_COORDINATE {
-                return check::fail("positions", Problem::TooLarge);
-            }
+            let in_list = |error: InputError| error.of_list("positions", index as usize);
+            check::point("positions", position).map_err(in_list)?;
             // −0 becomes 0.
             corners.push(position + DVec3::ZERO);
         }

@@ -5,7 +5,7 @@ use crate::bounds::{least, most};
 use crate::clip_space::{ClipSpace, DepthRange};
 use crate::convex::{Plane, matrix_from_rows};
 use crate::decode::{EyeAxes, Frame};
-use crate::error::{InputError, Problem, check};
+use crate::error::{Hint, InputError, Problem, check};
 use glam::{DMat4, DVec2, DVec3};
 
 /// Whether lines of sight meet in the eye or run side by side.
@@ -63,9 +63,11 @@ impl View {
         near: f64,
         far: f64,
     ) -> Result<Self, InputError> {
-        if !(fov_y > 0.0 && fov_y < core::f64::consts::PI) {
-            return check::fail("fov_y", Problem::AngleOutOfRange);
-        }
+        let fov_y = check::angle("fov_y", fov_y, 0.0, core::f64::consts::PI).map_err(|error| {
+            // A lens of more than a turn is one of that many degrees.
+            let degrees = fov_y > 2.0 * core::f64::consts::PI && fov_y <= 180.0;
+            error.hinted(degrees.then_some(Hint::Degrees))
+        })?;
         let (sine, cosine) = angle::sine_cosine(0.5 * fov_y);
         let slope = check::distance("fov_y", sine / cosine)?;
         let slopes = DVec2::new(check::distance("aspect", slope * check::distance("aspect", aspect)?)?, slope);
@@ -166,9 +168,7 @@ impl View {
             Lens::Perspective => (check::distance("near", near)?, check::distance_or_infinity("far", far)?),
             Lens::Orthographic => (check::coordinate("near", near)?, check::coordinate("far", far)?),
         };
-        if near >= far {
-            return check::fail("far", Problem::OutOfOrder);
-        }
+        check::above("far", far, "near", near)?;
         let Axes { right, up, forward } = axes;
         Ok(Self { eye, right, up, forward, lens, frame_min, frame_max, near, far })
     }

@@ -6,7 +6,7 @@ use parry3d::math::Vector;
 use parry3d::query::PointQuery;
 use parry3d::shape::{ConvexPolyhedron, Cuboid};
 use shadowfit::glam::{DQuat, DVec3, Vec3};
-use shadowfit::{Aabb, Body, ConvexScene, Focus, Form, InputError, Light, Problem, Scene, View};
+use shadowfit::{Aabb, Body, ConvexScene, Focus, Form, Light, Problem, Scene, View};
 
 /// A view that sees all around the origin, up to a hundred units away, and a light above it.
 fn visible(scene: &Scene<'_>) -> Body {
@@ -106,7 +106,7 @@ fn points_without_volume_have_a_bound_all_the_same() {
 fn bad_points_are_refused() {
     let bad = |points: &[Vec3], problem| {
         let error = ConvexScene::hull_of(points).unwrap_err();
-        assert_eq!(error, InputError { field: "points", problem });
+        assert_eq!((error.field, error.problem), ("points", problem));
     };
     bad(&[], Problem::Empty);
     bad(&[Vec3::ZERO, Vec3::new(0.0, f32::NAN, 0.0)], Problem::NotFinite);

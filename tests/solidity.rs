@@ -5,7 +5,7 @@
 
 use glam::{DMat3, DMat4, DVec3, Vec3};
 use proptest::prelude::*;
-use shadowfit::{InputError, MAX_COORDINATE, Problem, Solidity, SolidityReport};
+use shadowfit::{MAX_COORDINATE, Problem, Solidity, SolidityReport};
 
 mod arbitrary;
 
@@ -203,14 +203,17 @@ fn positions_may_be_single_precision_and_others_may_lie_beside() {
 
 #[test]
 fn what_is_no_mesh_is_refused() {
-    let refused = |field, problem| Err(InputError { field, problem });
+    let refused = |field, problem| Err((field, problem));
+    let solidity_of = |positions: &[DVec3], triangles: &[[u32; 3]]| {
+        Solidity::of(positions, triangles).map_err(|error| (error.field, error.problem))
+    };
     let square = [DVec3::ZERO, DVec3::X, DVec3::Y];
-    assert_eq!(Solidity::of(&square, &[]), refused("triangles", Problem::Empty));
-    assert_eq!(Solidity::of(&square, &[[0, 1, 3]]), refused("triangles", Problem::OutOfRange));
+    assert_eq!(solidity_of(&square, &[]), refused("triangles", Problem::Empty));
+    assert_eq!(solidity_of(&square, &[[0, 1, 3]]), refused("triangles", Problem::OutOfRange));
     let broken = [DVec3::ZERO, DVec3::X, DVec3::new(0.0, f64::NAN, 0.0)];
-    assert_eq!(Solidity::of(&broken, &[[0, 1, 2]]), refused("positions", Problem::NotFinite));
+    assert_eq!(solidity_of(&broken, &[[0, 1, 2]]), refused("positions", Problem::NotFinite));
     let far = [DVec3::ZERO, DVec3::X, DVec3::Y * 2.0 * MAX_COORDINATE];
-    assert_eq!(Solidity::of(&far, &[[0, 1, 2]]), refused("positions", Problem::TooLarge));
+    assert_eq!(solidity_of(&far, &[[0, 1, 2]]), refused("positions", Problem::TooLarge));
 }
 
 /// A ball whose corners are pushed about, so that it is no longer convex; its radius is at least a half.

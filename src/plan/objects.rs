@@ -2,7 +2,7 @@
 
 use super::groups::Groups;
 use crate::error::{InputError, Problem, check};
-use crate::scene::{Aabb, checked_box};
+use crate::scene::{Aabb, checked_box, of_boxes};
 use crate::solidity::{Sheet, Solidity, SolidityReport};
 use glam::DVec3;
 use std::vec::Vec;
@@ -88,16 +88,16 @@ impl Objects {
             return check::fail(FIELD, Problem::TooMany);
         }
         let mut extent = DVec3::ZERO;
-        for object in objects {
+        for (index, object) in objects.iter().enumerate() {
             let Aabb { min, max } = object.bounds;
-            let (min, max) = checked_box(min.as_dvec3(), max.as_dvec3())
-                .map_err(|error| InputError { field: FIELD, ..error })?;
+            let (min, max) =
+                checked_box(min.as_dvec3(), max.as_dvec3()).map_err(|error| of_boxes(error, FIELD, index))?;
             extent = extent.max(min.abs()).max(max.abs());
-            if object.longest_edge.is_nan() {
-                return check::fail(FIELD, Problem::NotFinite);
-            }
-            if object.longest_edge < 0.0 {
-                return check::fail(FIELD, Problem::TooSmall);
+            let longest = object.longest_edge;
+            if longest.is_nan() || longest < 0.0 {
+                let problem = if longest.is_nan() { Problem::NotFinite } else { Problem::TooSmall };
+                let error = InputError { component: Some("longest_edge"), ..InputError::new(FIELD, problem) };
+                return Err(error.got(longest.into()).of_list(FIELD, index));
             }
         }
         let those = |are: fn(&Object) -> bool| {

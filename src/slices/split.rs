@@ -2,7 +2,7 @@
 
 use super::Slices;
 use crate::bounds::Interval;
-use crate::error::{InputError, MAX_COORDINATE, Problem, check};
+use crate::error::{Expected, InputError, MAX_COORDINATE, Problem, check};
 use crate::view::{Lens, View};
 
 /// How a range of depths is split: the cuts of Zhang, Sun, Xu & Lun, *Parallel-Split Shadow Maps for Large-scale Virtual
@@ -103,16 +103,19 @@ impl Cuts<'_> {
                 if depths.len() >= Slices::MAX {
                     return check::fail("cuts", Problem::TooMany);
                 }
-                for &depth in depths {
-                    let depth = rounded(check::coordinate("cuts", depth)?);
+                for (index, &depth) in depths.iter().enumerate() {
+                    let at = |error: InputError| error.of_list("cuts", index);
+                    let refuse = |problem| at(InputError::new("cuts", problem).got(depth));
+                    let between = Expected::Between { above: near, below: far };
+                    let depth = rounded(check::coordinate("cuts", depth).map_err(at)?);
                     if depth <= near {
-                        return check::fail("cuts", Problem::TooSmall);
+                        return Err(refuse(Problem::TooSmall).expected(between));
                     }
                     if depth >= far {
-                        return check::fail("cuts", Problem::TooLarge);
+                        return Err(refuse(Problem::TooLarge).expected(between));
                     }
                     if !cuts.push(depth) {
-                        return check::fail("cuts", Problem::OutOfOrder);
+                        return Err(refuse(Problem::OutOfOrder));
                     }
                 }
                 Ok(cuts)
@@ -142,12 +145,7 @@ impl Depths {
 
 impl Split {
     fn check(self, count: usize) -> Result<(), InputError> {
-        if count == 0 {
-            return check::fail("count", Problem::TooSmall);
-        }
-        if count > Slices::MAX {
-            return check::fail("count", Problem::TooLarge);
-        }
+        check::within("count", count as f64, Expected::Within { least: 1.0, most: Slices::MAX as f64 })?;
         match self {
             Self::Uniform | Self::Logarithmic => Ok(()),
             Self::Blended(part) => check::part("split", part, 1.0).map(|_| ()),

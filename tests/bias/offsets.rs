@@ -148,8 +148,11 @@ fn a_world_distance_under_a_lamp_is_a_chord() {
 
 #[test]
 fn offsets_that_make_no_sense_are_refused() {
-    let refused = |offset: Result<Offset, InputError>| offset.expect_err("no sense");
-    let error = |field, problem| InputError { field, problem };
+    let refused = |offset: Result<Offset, InputError>| {
+        let error = offset.expect_err("no sense");
+        (error.field, error.problem)
+    };
+    let error = |field, problem| (field, problem);
     assert_eq!(refused(Offset::world(f64::NAN)), error("distance", Problem::NotFinite));
     assert_eq!(refused(Offset::world(1e13)), error("distance", Problem::TooLarge));
     assert_eq!(refused(Offset::relative(f64::INFINITY)), error("part", Problem::NotFinite));

@@ -1,0 +1,97 @@
+//! The checks that the constructors share, each naming its field.
+
+use super::{Expected, InputError, MAX_COORDINATE, MIN_DISTANCE, Problem};
+use glam::DVec3;
+
+pub(crate) const fn fail<T>(field: &'static str, problem: Problem) -> Result<T, InputError> {
+    Err(InputError::new(field, problem))
+}
+
+/// What a coordinate must be.
+const COORDINATE: Expected = Expected::Within { least: -MAX_COORDINATE, most: MAX_COORDINATE };
+/// What a distance must be.
+const DISTANCE: Expected = Expected::Within { least: MIN_DISTANCE, most: MAX_COORDINATE };
+
+/// Zero for a number so small that products of a few of its kind would underflow: below 2⁻²⁰⁰, about 10⁻⁶⁰.
+fn flushed(value: f64) -> f64 {
+    const TINY: f64 = 6.223_015_277_861_142e-61;
+    if value.abs() < TINY { 0.0 } else { value }
+}
+
+/// A coordinate or signed distance.
+pub(crate) fn coordinate(field: &'static str, value: f64) -> Result<f64, InputError> {
+    within(field, value, COORDINATE).map(flushed)
+}
+
+/// A point.
+pub(crate) fn point(field: &'static str, value: DVec3) -> Result<DVec3, InputError> {
+    let [x, y, z] = value.to_array();
+    let axis = |axis: usize, value: f64| coordinate(field, value).map_err(|error| error.of_axis(axis));
+    Ok(DVec3::new(axis(0, x)?, axis(1, y)?, axis(2, z)?))
+}
+
+/// A positive distance.
+pub(crate) fn distance(field: &'static str, value: f64) -> Result<f64, InputError> {
+    within(field, value, DISTANCE)
+}
+
+/// A number from 0 to `most`.
+pub(crate) fn part(field: &'static str, value: f64, most: f64) -> Result<f64, InputError> {
+    within(field, value, Expected::Within { least: 0.0, most }).map(flushed)
+}
+
+/// A number from `least` to `most`, or one that is too small or too large.
+pub(crate) fn within(field: &'static str, value: f64, expected: Expected) -> Result<f64, InputError> {
+    let Expected::Within { least, most } = expected else { return Ok(value) };
+    let problem = if !value.is_finite() {
+        Problem::NotFinite
+    } else if value < least {
+        // A coordinate far below zero is as large as one above it.
+        if value < -MAX_COORDINATE && least < 0.0 { Problem::TooLarge } else { Problem::TooSmall }
+    } else if value > most {
+        Problem::TooLarge
+    } else {
+        return Ok(value);
+    };
+    Err(InputError::new(field, problem).got(value).expected(expected))
+}
+
+/// A positive distance, or infinity.
+pub(crate) fn distance_or_infinity(field: &'static str, value: f64) -> Result<f64, InputError> {
+    if value == f64::INFINITY { Ok(value) } else { distance(field, value) }
+}
+
+/// A number that must be greater than `other`, the argument `than`.
+pub(crate) fn above(field: &'static str, value: f64, than: &'static str, other: f64) -> Result<(), InputError> {
+    if value > other {
+        return Ok(());
+    }
+    let expected = Expected::Above { field: than, value: other };
+    Err(InputError::new(field, Problem::OutOfOrder).got(value).expected(expected))
+}
+
+/// An angle in an open range, in radians.
+pub(crate) fn angle(field: &'static str, value: f64, above: f64, below: f64) -> Result<f64, InputError> {
+    if value > above && value < below {
+        return Ok(value);
+    }
+    Err(InputError::new(field, Problem::AngleOutOfRange).got(value).expected(Expected::Between { above, below }))
+}
+
+/// A direction, made unit length whatever its length was; one that is unit length stays as it is to the last bit.
+pub(crate) fn direction(field: &'static str, value: DVec3) -> Result<DVec3, InputError> {
+    let components = value.to_array();
+    if let Some(axis) = components.iter().position(|component| !component.is_finite()) {
+        return Err(InputError::new(field, Problem::NotFinite).got(components[axis]).of_axis(axis));
+    }
+    if (value.length_squared() - 1.0).abs() <= 4.0 * f64::EPSILON {
+        return Ok(value.map(flushed));
+    }
+    // Scaled by a power of two first, so that neither tiny nor huge directions under- or overflow when squared.
+    let largest = value.abs().max_element();
+    if largest == 0.0 {
+        return fail(field, Problem::NoDirection);
+    }
+    let scaled = value / largest;
+    Ok((scaled / scaled.length()).map(flushed))
+}
