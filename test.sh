@@ -15,7 +15,7 @@ step 'a Vulkan driver'
 ./driver.sh
 
 # All features, but for the report's peers from Bevy, which bring two hundred crates along.
-all=(--workspace --features shadowfit/libm,shadowfit/mint,shadowfit/parry3d,shadowfit/serde,shadowfit/spade,shadowfit/wgsl)
+all=(--workspace --features shadowfit/libm,shadowfit/parry3d,shadowfit/serde,shadowfit/spade,shadowfit/wgsl)
 
 step formatting
 cargo fmt --all --check
@@ -39,7 +39,7 @@ done
 
 # What each of the other features adds: its own tests pass with that feature alone. All targets built with none of them above,
 # and with all.
-for of_feature in parry3d:parry mint:mint serde:serde spade:refine wgsl:paraboloid; do
+for of_feature in parry3d:parry serde:serde spade:refine wgsl:paraboloid; do
     feature=${of_feature%%:*}
     step "tests, features: std,$feature"
     cargo test --package shadowfit --no-default-features --features "std,$feature" --test "${of_feature##*:}"
@@ -65,5 +65,5 @@ tar --create --exclude=./target --exclude=./fuzz/target --exclude=./.git --exclu
     done
     cargo tree --package shadowfit --depth 1 --prefix none | grep --quiet "^glam v$lowest"
     CARGO_TARGET_DIR=../../target cargo check --package shadowfit --all-features --all-targets
-    CARGO_TARGET_DIR=../../target cargo test --package shadowfit --all-features "${same[@]}" --test parry --test mint --test serde
+    CARGO_TARGET_DIR=../../target cargo test --package shadowfit --all-features "${same[@]}" --test parry --test serde
 )

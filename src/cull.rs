@@ -2,6 +2,7 @@
 
 use crate::convex::{Body, Plane};
 use crate::focus::farthest_corner;
+use crate::numbers::vector;
 use crate::scene::Aabb;
 use glam::{DVec3, Vec3, Vec4};
 
@@ -11,10 +12,10 @@ impl Body {
     /// Never false for a box that does; sometimes true for one that does not, near an edge of the body. A box turned
     /// inside out meets nothing.
     #[must_use]
-    pub fn meets_box(&self, min: impl Into<DVec3>, max: impl Into<DVec3>) -> bool {
+    pub fn meets_box<F: Into<f64>, G: Into<f64>>(&self, min: impl Into<[F; 3]>, max: impl Into<[G; 3]>) -> bool {
         let Some((low, high)) = self.bounds() else { return false };
         // What matters of the box lies in the body's own; the planes are loose enough for corners of that.
-        let (min, max) = (min.into().max(low), max.into().min(high));
+        let (min, max) = (vector(min).max(low), vector(max).min(high));
         min.cmple(max).all() && self.planes().all(|plane| plane.at(farthest_corner(min, max, plane.normal)) >= 0.0)
     }
 
@@ -23,8 +24,8 @@ impl Body {
     /// Never false for a ball that does; sometimes true for one that does not, near an edge of the body. A negative
     /// radius meets nothing.
     #[must_use]
-    pub fn meets_sphere(&self, centre: impl Into<DVec3>, radius: f64) -> bool {
-        let centre = centre.into();
+    pub fn meets_sphere<F: Into<f64>>(&self, centre: impl Into<[F; 3]>, radius: f64) -> bool {
+        let centre = vector(centre);
         let slack = 8.0 * f64::EPSILON * (centre.abs().element_sum() + radius);
         let inside = |plane: Plane| plane.normalized().at(centre) + radius + slack >= 0.0;
         !self.is_empty() && radius >= 0.0 && self.planes().all(inside)

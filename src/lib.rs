@@ -79,13 +79,32 @@
 //!   Without it, enable `libm`.
 //! - `libm`: square roots from the `libm` crate.
 //! - `parry3d`: bodies, boxes and convex hulls from and to parry3d.
-//! - `mint`: vectors and matrices of other libraries at the door, through glam.
 //! - `spade`: meshes cut finely enough for paraboloid maps (`Refiner`).
 //! - `wgsl`: functions for a renderer's own shaders ([`wgsl`]).
 //! - `serde`: views, lights, settings and results can be stored; what is read is checked like any other input.
 //!
-//! glam 0.33.12 to 0.34 are accepted, and the one in use is re-exported as [`glam`]. To pin it to the version another
-//! crate needs: `cargo update -p glam@0.34.3 --precise 0.33.12`.
+//! # Other libraries
+//!
+//! Constructors take what converts into arrays, in f32 or f64: glam of any version (Bevy's, parry's), nalgebra, cgmath, mint,
+//! tuples, arrays. Results are arrays in one call. No version is pinned ([`IntoMatrix`] has the table for matrices).
+//!
+//! ```
+//! # use shadowfit::{Light, Settings, Scene, View, fit};
+//! # #[derive(Clone, Copy)] struct TheirVec3([f32; 3]); // bevy_math::Vec3, nalgebra::Vector3<f32>, ...
+//! # impl From<TheirVec3> for [f32; 3] { fn from(vector: TheirVec3) -> Self { vector.0 } }
+//! # let theirs = TheirVec3([0.4, 1.0, 0.2]);
+//! let sun = Light::directional(theirs)?; // a vector of any library
+//! assert_eq!(sun, Light::directional([0.4_f32, 1.0, 0.2])?);
+//! # let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 500.0)?;
+//! # let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
+//! if let Some(map) = fit(&view, &sun, &scene, &Settings::default()).map() {
+//!     let columns: [[f32; 4]; 4] = map.matrix().to_cols_array_2d(); // what every library's matrix is made from
+//!     assert_eq!(columns[3][3], map.matrix().w_axis.w);
+//! }
+//! # Ok::<(), shadowfit::InputError>(())
+//! ```
+//!
+//! glam 0.33.12 to 0.34 are accepted, and the one in use is re-exported as [`glam`].
 #![no_std]
 
 #[cfg(any(feature = "std", test))]
@@ -115,6 +134,7 @@ mod integral;
 mod light;
 mod limit;
 mod map;
+mod numbers;
 mod offset;
 mod paraboloid;
 #[cfg(feature = "parry3d")]
@@ -156,6 +176,7 @@ pub use focus::{Focus, Form};
 pub use glam;
 pub use light::{Light, LightPlanes};
 pub use map::{DepthResolution, DepthSpan, Map, Report, Window};
+pub use numbers::IntoMatrix;
 pub use offset::Offset;
 pub use paraboloid::{Paraboloid, ParaboloidRounding, Paraboloids};
 pub use perspective::{ClassKind, LightClass, NearCase, VirtualCamera, classify};

@@ -4,6 +4,7 @@ use crate::angle;
 use crate::convex::Plane;
 use crate::cube::CubeFace;
 use crate::error::{Hint, InputError, Problem, check};
+use crate::numbers::vector;
 use core::f64::consts::{FRAC_PI_2, PI};
 use glam::{DVec3, DVec4};
 
@@ -60,8 +61,8 @@ impl Light {
     /// # Errors
     ///
     /// Names `"direction_to_light"` when it is zero or not finite.
-    pub fn directional(direction_to_light: impl Into<DVec3>) -> Result<Self, InputError> {
-        let direction_to_light = check::direction("direction_to_light", direction_to_light.into())?;
+    pub fn directional<F: Into<f64>>(direction_to_light: impl Into<[F; 3]>) -> Result<Self, InputError> {
+        let direction_to_light = check::direction("direction_to_light", vector(direction_to_light))?;
         Ok(Self { kind: Kind::Directional { direction_to_light } })
     }
 
@@ -74,8 +75,8 @@ impl Light {
     /// # Errors
     ///
     /// Names the field that is not finite, not positive, or out of order.
-    pub fn point(position: impl Into<DVec3>, near: f64, range: f64) -> Result<Self, InputError> {
-        Self::local(position.into(), near, range, Shape::Point)
+    pub fn point<F: Into<f64>>(position: impl Into<[F; 3]>, near: f64, range: f64) -> Result<Self, InputError> {
+        Self::local(vector(position), near, range, Shape::Point)
     }
 
     /// A light at a position that shines into a cone.
@@ -86,14 +87,14 @@ impl Light {
     /// # Errors
     ///
     /// Names the field that is not finite, without direction, outside its range, or out of order.
-    pub fn spot(
-        position: impl Into<DVec3>,
-        axis: impl Into<DVec3>,
+    pub fn spot<F: Into<f64>, G: Into<f64>>(
+        position: impl Into<[F; 3]>,
+        axis: impl Into<[G; 3]>,
         half_angle: f64,
         near: f64,
         range: f64,
     ) -> Result<Self, InputError> {
-        let axis = check::direction("axis", axis.into())?;
+        let axis = check::direction("axis", vector(axis))?;
         // A cone narrower than the smallest field of view, or within rounding of a half space, is neither.
         const MARGIN: f64 = 1e-9;
         let half_angle = check::angle("half_angle", half_angle, MARGIN, FRAC_PI_2 - MARGIN).map_err(|error| {
@@ -103,7 +104,7 @@ impl Light {
                 _ => None,
             })
         })?;
-        Self::local(position.into(), near, range, Shape::Spot { axis, half_angle })
+        Self::local(vector(position), near, range, Shape::Spot { axis, half_angle })
     }
 
     /// A light at a position that shines into the half space that `axis` points into, as a wall lamp does. `near` and
@@ -112,14 +113,14 @@ impl Light {
     /// # Errors
     ///
     /// Names the field that is not finite, without direction, not positive, or out of order.
-    pub fn hemisphere(
-        position: impl Into<DVec3>,
-        axis: impl Into<DVec3>,
+    pub fn hemisphere<F: Into<f64>, G: Into<f64>>(
+        position: impl Into<[F; 3]>,
+        axis: impl Into<[G; 3]>,
         near: f64,
         range: f64,
     ) -> Result<Self, InputError> {
-        let axis = check::direction("axis", axis.into())?;
-        Self::local(position.into(), near, range, Shape::Hemisphere { axis })
+        let axis = check::direction("axis", vector(axis))?;
+        Self::local(vector(position), near, range, Shape::Hemisphere { axis })
     }
 
     /// The part of a point light or a hemisphere that shines through a face of the cube around it: where one map is not

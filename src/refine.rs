@@ -2,6 +2,7 @@
 
 use crate::angle;
 use crate::error::{InputError, Problem, check};
+use crate::numbers::vector;
 use glam::{DVec2, DVec3};
 use spade::handles::DirectedEdgeHandle;
 use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation};
@@ -84,8 +85,8 @@ impl Refiner {
     ///
     /// Names the field that is not finite or too large, `"near"` when it is not positive, and `"angle"` when it is not
     /// positive or more than a right angle.
-    pub fn new(light: impl Into<DVec3>, near: f64, angle: f64) -> Result<Self, InputError> {
-        let light = check::point("light", light.into())?;
+    pub fn new<F: Into<f64>>(light: impl Into<[F; 3]>, near: f64, angle: f64) -> Result<Self, InputError> {
+        let light = check::point("light", vector(light))?;
         let near = check::distance("near", near)?;
         if !(angle > 0.0 && angle <= core::f64::consts::FRAC_PI_2) {
             return check::fail("angle", Problem::AngleOutOfRange);

@@ -2,6 +2,7 @@
 
 use crate::convex::{Plane, PlaneId, Polyhedron, box_planes};
 use crate::error::{Expected, InputError, Problem, check};
+use crate::numbers::vector;
 use glam::{DVec3, Vec3};
 
 /// An axis-aligned box in single precision, as renderers keep them for their objects.
@@ -50,8 +51,11 @@ impl<'a> Scene<'a> {
     /// # Errors
     ///
     /// Names `"min"` or `"max"` when it is not finite, too large, or out of order.
-    pub fn from_box(min: impl Into<DVec3>, max: impl Into<DVec3>) -> Result<Self, InputError> {
-        let (min, max) = checked_box(min.into(), max.into())?;
+    pub fn from_box<F: Into<f64>, G: Into<f64>>(
+        min: impl Into<[F; 3]>,
+        max: impl Into<[G; 3]>,
+    ) -> Result<Self, InputError> {
+        let (min, max) = checked_box(vector(min), vector(max))?;
         Ok(Self { bounds: Bounds::Box { min, max } })
     }
 
@@ -137,9 +141,13 @@ impl ConvexScene {
     ///
     /// Names `"min"` or `"max"` as [`Scene::from_box`] does, and `"planes"` when there are more than
     /// [`Self::MAX_CUTS`], one is not finite or without direction, or nothing is left of the box.
-    pub fn new(min: impl Into<DVec3>, max: impl Into<DVec3>, planes: &[Plane]) -> Result<Self, InputError> {
+    pub fn new<F: Into<f64>, G: Into<f64>>(
+        min: impl Into<[F; 3]>,
+        max: impl Into<[G; 3]>,
+        planes: &[Plane],
+    ) -> Result<Self, InputError> {
         const FIELD: &str = "planes";
-        let (min, max) = checked_box(min.into(), max.into())?;
+        let (min, max) = checked_box(vector(min), vector(max))?;
         if planes.len() > Self::MAX_CUTS {
             return check::fail(FIELD, Problem::TooMany);
         }
@@ -167,7 +175,7 @@ impl ConvexScene {
     /// # Errors
     ///
     /// Names `"points"` when there are none, or one is not finite or too large.
-    pub fn around(points: impl IntoIterator<Item = DVec3>) -> Result<Self, InputError> {
+    pub fn around<F: Into<f64>, P: Into<[F; 3]>>(points: impl IntoIterator<Item = P>) -> Result<Self, InputError> {
         const FIELD: &str = "points";
         /// Half of the directions; the others are their opposites.
         const DIRECTIONS: [DVec3; 6] = [
@@ -180,8 +188,8 @@ impl ConvexScene {
         ];
         let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let mut slabs = [(f64::INFINITY, f64::NEG_INFINITY); DIRECTIONS.len()];
-        for point in points {
-            let point = check::point(FIELD, point)?;
+        for (index, point) in points.into_iter().enumerate() {
+            let point = check::point(FIELD, vector(point)).map_err(|error| error.of_list(FIELD, index))?;
             (min, max) = (min.min(point), max.max(point));
             for (slab, direction) in slabs.iter_mut().zip(DIRECTIONS) {
                 let along = direction.dot(point);

@@ -3,6 +3,7 @@
 extern crate alloc;
 
 use crate::error::{InputError, Problem, check};
+use crate::numbers::vector;
 use alloc::vec::Vec;
 use glam::DVec3;
 
@@ -90,9 +91,9 @@ impl Solidity {
     /// assert_eq!(Solidity::of(&corners, &faces[1..])?.solidity, Solidity::Open);
     /// # Ok::<(), shadowfit::InputError>(())
     /// ```
-    pub fn of<P>(positions: &[P], triangles: &[[u32; 3]]) -> Result<SolidityReport, InputError>
+    pub fn of<F: Into<f64>, P>(positions: &[P], triangles: &[[u32; 3]]) -> Result<SolidityReport, InputError>
     where
-        P: Copy + Into<DVec3>,
+        P: Copy + Into<[F; 3]>,
     {
         /// Three corners of each triangle must be countable in 32 bits.
         const MOST_TRIANGLES: usize = 1_000_000_000;
@@ -109,7 +110,7 @@ impl Solidity {
                     .got(index.into())
                     .of_list("triangles", at / 3));
             };
-            let position: DVec3 = position.into();
+            let position = vector(position);
             let in_list = |error: InputError| error.of_list("positions", index as usize);
             check::point("positions", position).map_err(in_list)?;
             // −0 becomes 0.

@@ -2,6 +2,7 @@
 
 use crate::error::check;
 use crate::map::Map;
+use crate::numbers::vector;
 use glam::{DVec2, DVec3};
 
 /// What a ball or a disc covers of a map: the axis-aligned rectangle that it just fits into, in texels.
@@ -101,8 +102,8 @@ impl Map {
     /// `None` where the ball reaches a point with w ≤ 0, as next to a lamp: a part of it is then infinitely far away in
     /// the map. Also `None` for numbers that are not finite and for a negative radius.
     #[must_use]
-    pub fn splat(&self, centre: impl Into<DVec3>, radius: f64) -> Option<Splat> {
-        self.splat_across(centre.into(), radius, DVec3::ZERO)
+    pub fn splat<F: Into<f64>>(&self, centre: impl Into<[F; 3]>, radius: f64) -> Option<Splat> {
+        self.splat_across(vector(centre), radius, DVec3::ZERO)
     }
 
     /// The bounds of a disc in the map, its centre and radius in world space, across `normal`, which may point to either
@@ -110,9 +111,14 @@ impl Map {
     ///
     /// `None` as for [`Self::splat`], and where the normal has no direction.
     #[must_use]
-    pub fn disc_splat(&self, centre: impl Into<DVec3>, normal: impl Into<DVec3>, radius: f64) -> Option<Splat> {
-        let normal = check::direction("normal", normal.into()).ok()?;
-        self.splat_across(centre.into(), radius, normal)
+    pub fn disc_splat<F: Into<f64>, G: Into<f64>>(
+        &self,
+        centre: impl Into<[F; 3]>,
+        normal: impl Into<[G; 3]>,
+        radius: f64,
+    ) -> Option<Splat> {
+        let normal = check::direction("normal", vector(normal)).ok()?;
+        self.splat_across(vector(centre), radius, normal)
     }
 
     /// Bounds of the disc across a unit normal, or of the ball where the normal is zero.

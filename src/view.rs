@@ -6,6 +6,7 @@ use crate::clip_space::{ClipSpace, DepthRange};
 use crate::convex::{Plane, matrix_from_rows};
 use crate::decode::{EyeAxes, Frame};
 use crate::error::{Hint, InputError, Problem, check};
+use crate::numbers::{IntoMatrix, vector};
 use glam::{DMat4, DVec2, DVec3};
 
 /// Whether lines of sight meet in the eye or run side by side.
@@ -54,10 +55,10 @@ impl View {
     ///
     /// Names the field that is not finite, without direction, parallel to the other direction, outside (0, π), not
     /// positive, or out of order.
-    pub fn perspective(
-        eye: impl Into<DVec3>,
-        forward: impl Into<DVec3>,
-        up: impl Into<DVec3>,
+    pub fn perspective<E: Into<f64>, F: Into<f64>, U: Into<f64>>(
+        eye: impl Into<[E; 3]>,
+        forward: impl Into<[F; 3]>,
+        up: impl Into<[U; 3]>,
         fov_y: f64,
         aspect: f64,
         near: f64,
@@ -71,8 +72,8 @@ impl View {
         let (sine, cosine) = angle::sine_cosine(0.5 * fov_y);
         let slope = check::distance("fov_y", sine / cosine)?;
         let slopes = DVec2::new(check::distance("aspect", slope * check::distance("aspect", aspect)?)?, slope);
-        let axes = Axes::looking(forward.into(), up.into())?;
-        Self::checked(eye.into(), axes, Lens::Perspective, -slopes, slopes, near, far)
+        let axes = Axes::looking(vector(forward), vector(up))?;
+        Self::checked(vector(eye), axes, Lens::Perspective, -slopes, slopes, near, far)
     }
 
     /// An orthographic camera with a symmetric frame.
@@ -84,10 +85,10 @@ impl View {
     ///
     /// Names the field that is not finite, without direction, parallel to the other direction, not positive, or out of
     /// order.
-    pub fn orthographic(
-        eye: impl Into<DVec3>,
-        forward: impl Into<DVec3>,
-        up: impl Into<DVec3>,
+    pub fn orthographic<E: Into<f64>, F: Into<f64>, U: Into<f64>>(
+        eye: impl Into<[E; 3]>,
+        forward: impl Into<[F; 3]>,
+        up: impl Into<[U; 3]>,
         half_height: f64,
         aspect: f64,
         near: f64,
@@ -95,8 +96,8 @@ impl View {
     ) -> Result<Self, InputError> {
         let height = check::distance("half_height", half_height)?;
         let half = DVec2::new(check::distance("aspect", height * check::distance("aspect", aspect)?)?, height);
-        let axes = Axes::looking(forward.into(), up.into())?;
-        Self::checked(eye.into(), axes, Lens::Orthographic, -half, half, near, far)
+        let axes = Axes::looking(vector(forward), vector(up))?;
+        Self::checked(vector(eye), axes, Lens::Orthographic, -half, half, near, far)
     }
 
     /// A camera from the two matrices a renderer has: world → eye and eye → clip, for column vectors (`clip_from_eye ·
@@ -110,12 +111,12 @@ impl View {
     ///
     /// Names the matrix that is not finite, not rigid, or no projection; `"near"` or `"far"` when the depth range that
     /// `clip_from_eye` encodes is not positive, which is also what a matrix read in the wrong convention looks like.
-    pub fn from_matrices(
-        eye_from_world: impl Into<DMat4>,
-        clip_from_eye: impl Into<DMat4>,
+    pub fn from_matrices<A, B>(
+        eye_from_world: impl IntoMatrix<A>,
+        clip_from_eye: impl IntoMatrix<B>,
         clip: ClipSpace,
     ) -> Result<Self, InputError> {
-        let (eye_from_world, clip_from_eye) = (eye_from_world.into(), clip_from_eye.into());
+        let (eye_from_world, clip_from_eye) = (eye_from_world.into_matrix(), clip_from_eye.into_matrix());
         let axes = EyeAxes::of(&eye_from_world)?;
         let frame = Frame::of(&clip_from_eye, clip)?;
         let forward = axes.backward * frame.forward_sign;

@@ -341,7 +341,7 @@ fn planes_of_convex_scenes() {
     refused(scene(&[Plane::new(DVec3::X, -2.0)]), "planes", Problem::Empty);
     refused(scene(&[Plane::new(DVec3::X, 0.0); ConvexScene::MAX_CUTS + 1]), "planes", Problem::TooMany);
     assert!(scene(&[Plane::new(DVec3::X, 0.0); ConvexScene::MAX_CUTS]).is_ok());
-    refused(ConvexScene::around([]), "points", Problem::Empty);
+    refused(ConvexScene::around([DVec3::ZERO; 0]), "points", Problem::Empty);
     for value in NOT_FINITE {
         refused(ConvexScene::around([DVec3::ZERO, with(DVec3::ONE, 1, value)]), "points", Problem::NotFinite);
     }

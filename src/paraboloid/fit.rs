@@ -6,6 +6,7 @@ use crate::error::{InputError, check};
 use crate::fit::Empty;
 use crate::focus::{Focus, Form};
 use crate::frame;
+use crate::numbers::vector;
 use crate::settings::Settings;
 use core::slice;
 use glam::DVec3;
@@ -64,12 +65,12 @@ impl Focus<'_> {
     /// # Errors
     ///
     /// Names `"axis"` when it is zero or not finite.
-    pub fn paraboloids_about(
+    pub fn paraboloids_about<F: Into<f64>>(
         &self,
-        axis: impl Into<DVec3>,
+        axis: impl Into<[F; 3]>,
         settings: &Settings,
     ) -> Result<Paraboloids, InputError> {
-        Ok(self.fit_paraboloids(check::direction("axis", axis.into())?, settings))
+        Ok(self.fit_paraboloids(check::direction("axis", vector(axis))?, settings))
     }
 
     fn fit_paraboloids(&self, fixed: DVec3, settings: &Settings) -> Paraboloids {

@@ -1,0 +1,64 @@
+//! Vectors and matrices of any library, at the door.
+//!
+//! What all of them have in common are arrays: each turns its vectors into `[f32; 3]` or `[f64; 3]`, and its matrices into arrays
+//! of four columns. So that is what the constructors take, and no version of any of them is pinned.
+
+use glam::{DMat4, DVec3, Mat4};
+
+/// Three numbers as they are computed with.
+pub(crate) fn vector<F: Into<f64>>(vector: impl Into<[F; 3]>) -> DVec3 {
+    DVec3::from(vector.into().map(Into::into))
+}
+
+/// A 4×4 matrix for column vectors, of any library, in single or double precision: arrays of four columns, and all that
+/// converts into those.
+///
+/// | from | as |
+/// |---|---|
+/// | glam, the version in use | itself |
+/// | glam, any other version (Bevy's, parry's) | `matrix.to_cols_array_2d()` |
+/// | nalgebra, cgmath, mint's `ColumnMatrix4` | itself |
+/// | 16 numbers, column after column | `glam::Mat4::from_cols_array(&numbers)` |
+///
+/// Results go back the same way: `map.matrix().to_cols_array_2d()` is what every library's `from` takes.
+///
+/// `Columns` is found by the compiler. A matrix kept by rows (mint's `RowMatrix4`) converts into an array of its rows, which is
+/// its transpose: convert it to columns first.
+///
+/// ```
+/// use shadowfit::{ClipSpace, View, glam::Mat4};
+///
+/// // The same camera, one metre up, in f64 as arrays and in f32 as glam has it.
+/// let view = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 1.0]];
+/// let lens = [[0.5, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, -1.0], [0.0, 0.0, -0.25, 0.0]];
+/// let one = View::from_matrices(view, lens, ClipSpace::WGPU)?;
+/// let other = View::from_matrices(
+///     Mat4::from_cols_array_2d(&view.map(|column| column.map(|entry| entry as f32))),
+///     Mat4::from_cols_array_2d(&lens.map(|column| column.map(|entry| entry as f32))),
+///     ClipSpace::WGPU,
+/// )?;
+/// assert_eq!((one, one.eye().to_array()), (other, [0.0, 1.0, 0.0]));
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
+pub trait IntoMatrix<Columns> {
+    /// The matrix as it is computed with.
+    fn into_matrix(self) -> DMat4;
+}
+
+impl<F: Into<f64>, M: Into<[[F; 4]; 4]>> IntoMatrix<[[F; 4]; 4]> for M {
+    fn into_matrix(self) -> DMat4 {
+        DMat4::from_cols_array_2d(&self.into().map(|column| column.map(Into::into)))
+    }
+}
+
+impl IntoMatrix<Self> for DMat4 {
+    fn into_matrix(self) -> DMat4 {
+        self
+    }
+}
+
+impl IntoMatrix<Self> for Mat4 {
+    fn into_matrix(self) -> DMat4 {
+        self.as_dmat4()
+    }
+}
