@@ -62,7 +62,7 @@ impl Map {
     /// nearly all of it for the mean, and allocates nothing.
     #[must_use]
     pub fn aliasing_over(&self, focus: &Focus<'_>) -> Option<Aliasing> {
-        let visible = focus.visible();
+        let visible = focus.visible_beyond_light();
         let mut survey = Survey::new(self);
         survey.search(&visible);
         let (integral, measure) = survey.integral(&visible, dimension(&visible), Fineness::CHECKED);

@@ -9,11 +9,12 @@ use crate::homography::Homography;
 use crate::light::Light;
 use crate::map::{DepthSpan, Map, Window};
 use crate::perspective::VirtualCamera;
-use crate::rays::Rays;
+use crate::rays::{NoRays, Rays};
 use crate::rounding::{self, AWAY_FROM_LAMP, Rounding};
 use crate::scene::{Region, Scene};
 use crate::settings::{Settings, Shift, Warp};
 use crate::stable::Stable;
+use crate::surrounded::Surrounded;
 use crate::view::View;
 use crate::warp::{self, Precision, Proposed, Samples, light_space, perspective, trapezoidal};
 use core::fmt;
@@ -62,24 +63,6 @@ impl fmt::Display for Empty {
             Self::NothingVisible => "nothing that is in view can be lit: no shadow map and no shading needed",
             Self::NothingCasts => "nothing can cast on what is in view: no shadow map needed, all of it is lit",
         })
-    }
-}
-
-/// The light stands among what is visible and lit: every plane through it has some of that on both sides, so that one
-/// frustum cannot hold it all.
-///
-/// What serves instead: the light cut into parts, one fit each (the faces of a cube, [`Light::cube_face`], or
-/// [`Light::spot`]s where it is needed), or, for a [`Light::hemisphere`] or a pair of them, paraboloid maps (Brabec, Annen & Seidel 2002).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Surrounded;
-
-impl fmt::Display for Surrounded {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(
-            "the light stands among what is visible, which no single frustum holds: \
-             fit the faces of a cube around it, or use paraboloid maps",
-        )
     }
 }
 
@@ -149,10 +132,9 @@ fn fit_visible(
     before: Option<&Map>,
     settings: &Settings,
 ) -> Outcome {
-    let visible = &*body;
     let (view, light) = (focus.view(), focus.light());
     let (stable, refusal) = match settings.warp() {
-        Warp::Stable => match Stable::new(focus, visible.positions(), settings) {
+        Warp::Stable => match Stable::new(focus, body.positions(), settings) {
             Ok(stable) => (Some(stable), None),
             Err(refusal) => (None, Some(refusal)),
         },
@@ -160,12 +142,16 @@ fn fit_visible(
     };
     let rays = match &stable {
         Some(stable) => Ok(stable.rays(light)),
-        None => Rays::new(focus, visible.positions()),
+        None => Rays::new(focus, body),
     };
-    let Ok(rays) = rays else {
-        return Outcome::Surrounded(Surrounded);
+    let rays = match rays {
+        Ok(rays) => rays,
+        Err(NoRays::Surrounded(surrounded)) => return Outcome::Surrounded(surrounded),
+        // All that is visible is where the light is.
+        Err(NoRays::Nothing) => return Outcome::Empty(Empty::NothingCasts),
     };
     let origin = settings.origin().of(view, light);
+    let visible = &*body;
 
     // What is visible, as the uniform map and as the camera see it.
     let (mut u, mut v, mut along, mut eye_depth) =

@@ -2,6 +2,7 @@
 
 use crate::convex::{Bits, Body, Plane, PlaneId, Polyhedron};
 use crate::light::{Light, LightPlanes};
+use crate::rays::leave_corner;
 use crate::scene::{Aabb, Bounds, Region, Scene};
 use crate::view::{FrustumPlanes, View};
 use glam::{DVec3, DVec4};
@@ -107,6 +108,18 @@ impl<'a> Focus<'a> {
     pub fn visible(&self) -> Body {
         let (mut body, mut planes) = (Polyhedron::EMPTY, [Plane::ONE; Polyhedron::MAX_PLANES]);
         self.cut_visible(&mut body, |plane, id| planes[usize::from(id)] = plane);
+        Body::new(&body, planes)
+    }
+
+    /// R, less what is nearer to a light in a corner of it than the light's near distance: the map is for no more.
+    pub(crate) fn visible_beyond_light(&self) -> Body {
+        let (mut body, mut planes) = (Polyhedron::EMPTY, [Plane::ONE; Polyhedron::MAX_PLANES]);
+        self.cut_visible(&mut body, |plane, id| planes[usize::from(id)] = plane);
+        if let Some(position) = self.light.position() {
+            // Where there is no such corner, or no map, R is as it was.
+            let _ =
+                leave_corner(position, self.light.near(), &mut body, |plane, id| planes[usize::from(id)] = plane);
+        }
         Body::new(&body, planes)
     }
 

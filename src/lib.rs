@@ -157,6 +157,7 @@ mod slices;
 mod solidity;
 mod splat;
 mod stable;
+mod surrounded;
 mod view;
 mod virtual_sample;
 mod warp;
@@ -171,7 +172,7 @@ pub use cube::CubeFace;
 pub use cull::Culler;
 pub use error::{Expected, Hint, InputError, MAX_COORDINATE, MIN_DISTANCE, Problem};
 pub use filter::Filter;
-pub use fit::{Empty, Outcome, Surrounded, fit};
+pub use fit::{Empty, Outcome, fit};
 pub use focus::{Focus, Form};
 pub use glam;
 pub use light::{Light, LightPlanes};
@@ -194,5 +195,6 @@ pub use slices::{Cuts, Extent, Layout, Slice, SliceMaps, SliceUniform, Slices, S
 #[cfg(feature = "std")]
 pub use solidity::{Sheet, Solidity, SolidityReport};
 pub use splat::Splat;
+pub use surrounded::Surrounded;
 pub use view::{FrustumPlanes, Lens, View};
 pub use virtual_sample::{LEAST_INCIDENCE, Rule, SUBTEXEL, Sampled, TangentPlane};

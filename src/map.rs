@@ -313,7 +313,7 @@ impl Map {
     /// The whole report. `focus` is the one that the map was fitted from.
     #[must_use]
     pub fn report(&self, focus: &Focus<'_>) -> Report {
-        let visible = focus.visible();
+        let visible = focus.visible_beyond_light();
         let over =
             |value: &dyn Fn(DVec3) -> f64| visible.vertices().iter().map(|&point| value(point)).fold(0.0, f64::max);
         Report {

@@ -1,10 +1,11 @@
 //! Rays as a plane of their own.
 
 use crate::axis::widest_margin;
-use crate::convex::{Plane, Polyhedron};
+use crate::convex::{Plane, PlaneId, Polyhedron};
 use crate::focus::Focus;
 use crate::frame;
 use crate::light::Light;
+use crate::surrounded::Surrounded;
 use crate::view::View;
 use glam::{DVec2, DVec3};
 
@@ -39,29 +40,23 @@ pub(crate) struct Rays {
     pub(crate) least_w: f64,
 }
 
-/// The light stands among what it lights: no plane through it leaves everything visible on one side.
-pub(crate) struct NoAxis;
+/// Why there is no chart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum NoRays {
+    /// All that is visible is where the light is, or nearer to it than anything casts.
+    Nothing,
+    /// No frustum holds what is visible.
+    Surrounded(Surrounded),
+}
 
 impl Rays {
-    /// The chart around what is visible.
-    pub(crate) fn new(focus: &Focus<'_>, visible: impl Iterator<Item = DVec3>) -> Result<Self, NoAxis> {
+    /// The chart around what is visible, R, from which what is nearer to a light in a corner of it than its near distance is
+    /// cut off.
+    pub(crate) fn new(focus: &Focus<'_>, visible: &mut Polyhedron) -> Result<Self, NoRays> {
         let view = focus.view();
-        let position = focus.light().position();
-        let (axis, margin) = match position {
+        let (axis, margin) = match focus.light().position() {
             None => (-focus.light().homogeneous().truncate(), 1.0),
-            Some(position) => {
-                let mut directions = [DVec3::ZERO; Polyhedron::MAX_VERTICES];
-                let mut len = 0;
-                for (direction, point) in directions.iter_mut().zip(visible) {
-                    *direction = direction_between(position, point).ok_or(NoAxis)?;
-                    len += 1;
-                }
-                let (axis, margin) = widest_margin(&directions[..len]).ok_or(NoAxis)?;
-                if margin < Self::MIN_MARGIN {
-                    return Err(NoAxis);
-                }
-                (axis, margin)
-            }
+            Some(position) => leave_corner(position, focus.light().near(), visible, |_, _| ())?,
         };
         let (u_axis, v_axis) = frame::across(axis, view.forward(), view.up());
         Ok(Self::about([u_axis, v_axis, axis], view.eye(), focus.light(), margin))
@@ -87,8 +82,8 @@ impl Rays {
         }
     }
 
-    /// The least cosine of half the opening of a frustum: 89.9°. A light nearer to what is visible than that stands
-    /// among it, as far as a single map is concerned.
+    /// The least cosine of half the opening of a frustum, that of [`Surrounded::MAX_HALF_ANGLE`]. A light nearer to what is
+    /// visible than that stands among it, as far as a single map is concerned.
     pub(crate) const MIN_MARGIN: f64 = 1.0 / 512.0;
 
     /// The ray through a point, and w there.
@@ -131,6 +126,50 @@ impl Rays {
     pub(crate) fn direction(&self, across: DVec2, w: f64) -> DVec3 {
         self.u_axis * across.x + self.v_axis * across.y + self.axis * w
     }
+}
+
+/// The axis of the narrowest cone from a light at a position around a body, and the least cosine to it.
+///
+/// A corner of the body where the light is has no direction, and needs none: the edges that end there have theirs at their other
+/// ends. What is around it, up to the light's near distance, is cut off, so that w is positive on what is left. `each` is told
+/// the plane.
+pub(crate) fn leave_corner(
+    position: DVec3,
+    near: f64,
+    body: &mut Polyhedron,
+    mut each: impl FnMut(Plane, PlaneId),
+) -> Result<(DVec3, f64), NoRays> {
+    const NAME: PlaneId = Polyhedron::MAX_PLANES as PlaneId - 1;
+    let surrounded = |cosine| NoRays::Surrounded(Surrounded::by(cosine));
+    let mut directions = [DVec3::ZERO; Polyhedron::MAX_VERTICES];
+    let (mut len, mut extent, mut in_corner) = (0, position.abs(), false);
+    for point in body.positions() {
+        extent = extent.max(point.abs());
+        match direction_between(position, point) {
+            Some(direction) => (directions[len], len) = (direction, len + 1),
+            None => in_corner = true,
+        }
+    }
+    if len == 0 {
+        return Err(NoRays::Nothing);
+    }
+    let (axis, margin) = widest_margin(&directions[..len]).ok_or(surrounded(0.0))?;
+    if margin < Rays::MIN_MARGIN {
+        return Err(surrounded(margin));
+    }
+    if in_corner {
+        let beyond = (Plane::through(axis, position) - Plane::ONE * (near * margin)).loosened(extent);
+        body.clip(&beyond, NAME);
+        each(beyond, NAME);
+        if body.is_empty() {
+            return Err(NoRays::Nothing);
+        }
+        // The near distance may be lost in the rounding of the position.
+        if body.positions().any(|point| direction_between(position, point).is_none()) {
+            return Err(surrounded(margin));
+        }
+    }
+    Ok((axis, margin))
 }
 
 /// The unit direction from a light to a visible point. A light a few roundings away from what is visible is on its boundary,

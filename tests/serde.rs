@@ -9,8 +9,7 @@ use shadowfit::glam::{DMat4, DVec3, DVec4, Vec3};
 use shadowfit::{
     Aabb, Budget, ClipSpace, CubeFace, Cuts, DepthBias, DepthFormat, DepthResolution, DepthSpan, Effort, Empty,
     Filter, Focus, Footprint, Form, Layout, Light, LightClass, NearCase, Object, Offset, Origin, Outcome, Plane,
-    Reason, Refusal, Scene, Settings, Shift, Slices, Split, Surrounded, View, VirtualCamera, Warp, Window,
-    classify,
+    Reason, Refusal, Scene, Settings, Shift, Slices, Split, View, VirtualCamera, Warp, Window, classify,
 };
 
 #[track_caller]
@@ -74,10 +73,10 @@ fn an_infinite_far_plane_is_stored_as_nothing() {
 #[test]
 fn tampered_views() {
     let view = view(500.0);
-    tampered(&view, "/near", json!(-1.0), "near is too small");
-    tampered(&view, "/near", json!(501.0), "far has its minimum above its maximum");
-    tampered(&view, "/far", json!(1e300), "far is too large");
-    tampered(&view, "/eye/0", json!(1e300), "eye is too large");
+    tampered(&view, "/near", json!(-1.0), "near must lie in [2⁻⁴⁰, 2⁴⁰]");
+    tampered(&view, "/near", json!(501.0), "far (500) must be greater than near (501)");
+    tampered(&view, "/far", json!(1e300), "far must lie in [2⁻⁴⁰, 2⁴⁰]");
+    tampered(&view, "/eye/0", json!(1e300), "eye.x must lie in [−2⁴⁰, 2⁴⁰]");
     tampered(&view, "/forward/0", json!(0.5), "forward is more than rotation");
     tampered(&view, "/up", json!([0.0, 0.0, 0.0]), "forward is more than rotation");
     // A ten-thousandth too long: far beyond rounding, and within what glam calls normalized.
@@ -88,7 +87,7 @@ fn tampered_views() {
     tampered(&view, "/near", Value::Null, "null");
     // Only a perspective view sees infinitely far.
     let parallel = View::orthographic(DVec3::ONE, DVec3::X, DVec3::Y, 5.0, 1.3, -4.0, 9.0).unwrap();
-    tampered(&parallel, "/far", Value::Null, "far is not a finite number");
+    tampered(&parallel, "/far", Value::Null, "far must be finite");
 }
 
 #[test]
@@ -118,18 +117,23 @@ fn directions_do_not_creep() {
 fn tampered_lights() {
     let place = |name: &str| format!("/kind/Local/{name}");
     let spot = spot();
-    tampered(&spot, &place("near"), json!(0.0), "near is too small");
-    tampered(&spot, &place("near"), json!(99.0), "range has its minimum above its maximum");
-    tampered(&spot, &place("range"), json!(-1.0), "range is too small");
-    tampered(&spot, &place("position/1"), json!(1e200), "position is too large");
-    tampered(&spot, &place("shape/Spot/half_angle"), json!(1.6), "half_angle is outside the open range");
-    tampered(&spot, &place("shape/Spot/axis"), json!([0.0, 0.0, 0.0]), "axis has no direction");
+    tampered(&spot, &place("near"), json!(0.0), "near must lie in [2⁻⁴⁰, 2⁴⁰]");
+    tampered(&spot, &place("near"), json!(99.0), "must be greater than near (99)");
+    tampered(&spot, &place("range"), json!(-1.0), "range must lie in");
+    tampered(&spot, &place("position/1"), json!(1e200), "position.y must lie in");
+    tampered(
+        &spot,
+        &place("shape/Spot/half_angle"),
+        json!(1.6),
+        "half_angle must lie in (1e-9, π/2 − 1e-9) radians; got 1.6",
+    );
+    tampered(&spot, &place("shape/Spot/axis"), json!([0.0, 0.0, 0.0]), "axis has length zero");
     let face = Light::point((0.3, 1.0, 0.2), 0.1, 9.0).unwrap().cube_face(CubeFace::PositiveZ, 0.01).unwrap();
-    tampered(&face, &place("shape/CubeFace/overlap"), json!(-0.1), "overlap is too small");
-    tampered(&face, &place("shape/CubeFace/hemisphere"), json!([0.0, 0.0, 0.0]), "axis has no direction");
+    tampered(&face, &place("shape/CubeFace/overlap"), json!(-0.1), "overlap must lie in [0, 1]; got -0.1");
+    tampered(&face, &place("shape/CubeFace/hemisphere"), json!([0.0, 0.0, 0.0]), "axis has length zero");
     let sun = Light::directional(DVec3::Y).unwrap();
     let place = "/kind/Directional/direction_to_light";
-    tampered(&sun, place, json!([0.0, -0.0, 0.0]), "direction_to_light has no direction");
+    tampered(&sun, place, json!([0.0, -0.0, 0.0]), "direction_to_light has length zero");
 }
 
 #[test]
@@ -154,11 +158,11 @@ fn settings() {
         comes_back(settings.with_warp(warp));
     }
     comes_back(settings.with_map_sides(512, 4096).unwrap());
-    tampered(&settings, "/map_width", json!(0), "map_width is too small");
-    tampered(&settings, "/map_height", json!(0), "map_height is too small");
+    tampered(&settings, "/map_width", json!(0), "map_width must lie in [4, 65536]; got 0");
+    tampered(&settings, "/map_height", json!(0), "map_height must lie in [4, 65536]; got 0");
     tampered(&settings, "/map_width", json!(-1), "expected u32");
-    tampered(&settings, "/image_height", json!(1_000_000), "image_height is too large");
-    tampered(&settings, "/border", json!(500), "border is too large");
+    tampered(&settings, "/image_height", json!(1_000_000), "image_height must lie in [4, 65536]");
+    tampered(&settings, "/border", json!(500), "border must lie in");
 }
 
 /// From when all maps were square.
@@ -172,7 +176,9 @@ fn settings_of_one_size() {
     fields.insert("map_size".into(), width);
     assert_eq!(from_value::<Settings>(stored.clone()).unwrap(), settings);
     stored["map_size"] = json!(3);
-    assert!(from_value::<Settings>(stored).unwrap_err().to_string().contains("map_width is too small"));
+    assert!(
+        from_value::<Settings>(stored).unwrap_err().to_string().contains("map_size must lie in [4, 65536]; got 3")
+    );
 }
 
 #[test]
@@ -181,7 +187,7 @@ fn budgets() {
     let budget = budget.with_filter(Filter::PercentageCloser(5)).with_aliasing(0.5).unwrap();
     comes_back(budget);
     tampered(&budget, "/aliasing", json!(0.0), "aliasing is too small");
-    tampered(&budget, "/settings/map_height", json!(0), "map_height is too small");
+    tampered(&budget, "/settings/map_height", json!(0), "map_height must lie in [4, 65536]; got 0");
     comes_back(Object::new(Aabb::new(Vec3::NEG_ONE, Vec3::ONE)));
     comes_back([Reason::NothingCasts, Reason::WarpFiner(0.5), Reason::Faces(3)]);
 }
@@ -203,12 +209,22 @@ fn results() {
     comes_back::<DepthBias>(map.bias(DepthFormat::Float32, 1.5).unwrap());
     comes_back([Offset::world(0.1), Offset::relative(1e-3), Offset::depth(1e-4)].map(Result::unwrap));
     comes_back(Offset::world(0.1).unwrap().and_depth(1e-4).unwrap());
-    tampered(&Offset::relative(0.1).unwrap(), "/towards/Relative", json!(-2.0), "part is too small");
+    tampered(
+        &Offset::relative(0.1).unwrap(),
+        "/towards/Relative",
+        json!(-2.0),
+        "part must lie in [-0.5, 2⁴⁰]; got -2",
+    );
     comes_back::<Footprint>(map.footprint(focus.visible().vertices()[0]).unwrap());
     comes_back::<Plane>(report.body.planes().next().unwrap());
     comes_back(Aabb::new(Vec3::NEG_ONE, Vec3::ONE * 0.1));
     comes_back([Empty::NothingVisible, Empty::NothingCasts]);
-    comes_back(Surrounded);
+    let (min, max) = focus.visible().bounds().unwrap();
+    let inside = Light::point(0.5 * (min + max), 0.1, 9.0).unwrap();
+    let Outcome::Surrounded(surrounded) = Focus::new(&view, &inside, &scene).fit(&Settings::default()) else {
+        panic!("a map");
+    };
+    comes_back(surrounded);
     comes_back([Refusal::NoPerspective, Refusal::AlongView, Refusal::FocusBehindLight, Refusal::FocusLarge]);
     comes_back([DepthFormat::Unorm8, DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32]);
     comes_back([NearCase::CameraPlane, NearCase::AlongView, NearCase::Eye, NearCase::InsideView]);

@@ -161,7 +161,7 @@ fn block(setup: &SetUp, full: bool) -> String {
             text += &line("points", &|numbers| put_points(map, &focus, numbers));
         }
         Outcome::Empty(why) => text += &format!("{why:?}\n"),
-        Outcome::Surrounded(why) => text += &format!("{why:?}\n"),
+        Outcome::Surrounded(_) => text += "Surrounded\n",
     }
     let paraboloids = focus.paraboloids(settings);
     for (number, map) in (1..).zip(paraboloids.maps()) {

@@ -16,6 +16,7 @@
 
 mod bodies;
 mod camera;
+mod corners;
 mod figures;
 mod input;
 mod light_and_scene;
