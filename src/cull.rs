@@ -1,10 +1,36 @@
 //! Which casters to draw: boxes and spheres against a focus body.
 
 use crate::convex::{Body, Plane};
-use crate::focus::farthest_corner;
+use crate::focus::{Focus, Form, farthest_corner};
 use crate::numbers::vector;
 use crate::scene::Aabb;
 use glam::{DVec3, Vec3, Vec4};
+
+impl<'a> Focus<'a> {
+    /// The casters to draw, of a scene of lists: the indices, in order, of those whose boxes may meet the tight H. None where
+    /// the fit has no map because nothing is visible or casts, and of a scene without lists.
+    ///
+    /// ```
+    /// use shadowfit::{Aabb, Focus, Light, Scene, View};
+    ///
+    /// let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 500.0)?;
+    /// let sun = Light::directional((0.4, 1.0, 0.2))?;
+    /// let ground = Aabb::new([-200.0, 0.0, -200.0], [200.0, 0.0, 200.0]);
+    /// let (tree, behind) = (Aabb::new([3.0, 0.0, -9.0], [5.0, 4.0, -7.0]), Aabb::new([3.0, 0.0, 90.0], [5.0, 4.0, 92.0]));
+    /// let casters = [ground, behind, tree];
+    /// let focus = Focus::new(&view, &sun, &Scene::new(&casters, &[ground])?);
+    /// assert!(focus.casters().eq([0, 2]));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
+    pub fn casters(&self) -> impl Iterator<Item = usize> + use<'a> {
+        let body = self.body(Form::Tight);
+        let list = self.caster_list.filter(|_| !body.is_empty());
+        let indices = 0..list.map_or(0, |boxes| boxes.len());
+        indices.filter(move |&index| {
+            list.and_then(|boxes| boxes.get(index)).is_some_and(|one| body.meets_box(one.min, one.max))
+        })
+    }
+}
 
 impl Body {
     /// Whether a box may meet the body.

@@ -3,7 +3,7 @@
 use crate::convex::{Bits, Body, Plane, PlaneId, Polyhedron};
 use crate::light::{Light, LightPlanes};
 use crate::rays::leave_corner;
-use crate::scene::{Aabb, Bounds, Region, Scene};
+use crate::scene::{Bounds, Boxes, DAabb, Region, Scene};
 use crate::view::{FrustumPlanes, View};
 use glam::{DVec3, DVec4};
 
@@ -45,14 +45,13 @@ pub struct Focus<'a> {
     pub(crate) receivers: Option<Region<'a>>,
     /// `None`: nothing can cast on what is visible.
     pub(crate) casters: Option<Region<'a>>,
-    /// Whether casters and receivers have bounds of their own.
-    separate: bool,
+    /// The list of casters, where casters and receivers have bounds of their own.
+    pub(crate) caster_list: Option<Boxes<'a>>,
 }
 
-/// The names of L's planes begin here …
-const LIGHT_IDS: PlaneId = Region::IDS;
-/// … and those of V, of a hull, or of a window here.
-pub(crate) const VIEW_IDS: PlaneId = LIGHT_IDS + Light::MAX_PLANES as PlaneId;
+/// The names of the planes of V, or of a window, begin here. Those of L follow those of the region, and those of a hull those of
+/// L, so that as many as can be have one.
+pub(crate) const VIEW_IDS: PlaneId = Region::MAX_PLANES + Light::MAX_PLANES as PlaneId;
 
 impl<'a> Focus<'a> {
     /// Brings a view, a light and a scene together.
@@ -65,9 +64,10 @@ impl<'a> Focus<'a> {
             light_planes: light.planes(),
             receivers: None,
             casters: None,
-            separate: matches!(scene.bounds, Bounds::Lists { .. }),
+            caster_list: None,
         };
         match scene.bounds {
+            Bounds::Nothing => {}
             Bounds::Box { min, max } => {
                 focus.receivers = Some(Region::Box { min, max });
                 focus.casters = focus.receivers;
@@ -76,14 +76,17 @@ impl<'a> Focus<'a> {
                 focus.receivers = Some(Region::Convex(body));
                 focus.casters = focus.receivers;
             }
-            Bounds::Lists { casters, receivers, extent } => focus.gather(casters, receivers, extent),
+            Bounds::Lists { casters, receivers, extent } => {
+                focus.caster_list = Some(casters);
+                focus.gather(&casters, &receivers, extent);
+            }
         }
         focus
     }
 
     /// Bounds, from the lists, the receivers that can be visible and lit, then the casters, with coordinates no larger than
     /// `extent`, that can touch those.
-    fn gather(&mut self, casters: &[Aabb], receivers: &[Aabb], extent: DVec3) {
+    fn gather(&mut self, casters: &Boxes<'_>, receivers: &Boxes<'_>, extent: DVec3) {
         let lit_view = || self.view_planes.iter().chain(self.light_planes.iter()).copied();
         self.receivers = union(receivers, lit_view);
         if let Some(hull) = self.hull_of_visible(extent) {
@@ -136,7 +139,7 @@ impl<'a> Focus<'a> {
 
     /// S itself, unless casters and receivers have lists: what is known of those changes with the view.
     pub(crate) fn scene(&self) -> Option<&Region<'a>> {
-        if self.separate { None } else { self.receivers.as_ref() }
+        if self.caster_list.is_some() { None } else { self.receivers.as_ref() }
     }
 
     /// Calls `each` with the planes of S and L that bound what is visible besides the view's own.
@@ -179,7 +182,10 @@ impl<'a> Focus<'a> {
         };
         if let Some(hull) = hull {
             let extent = self.cut_lit(body, region, &mut each);
-            clip_all(body, &hull, VIEW_IDS, extent, &mut each);
+            // Planes without a name are left out, which makes the hull larger.
+            let first = self.light_ids(region).end;
+            let named = hull.len().min(Polyhedron::MAX_PLANES - usize::from(first));
+            clip_all(body, &hull[..named], first, extent, &mut each);
         }
     }
 
@@ -193,14 +199,21 @@ impl<'a> Focus<'a> {
         let extent = region.extent();
         region.fill(body);
         region.for_each_plane(&mut each);
-        clip_all(body, &self.light_planes, LIGHT_IDS, extent, &mut each);
+        clip_all(body, &self.light_planes, self.light_ids(region).start, extent, &mut each);
         extent
+    }
+
+    /// The names of L's planes where a region is cut by them.
+    fn light_ids(&self, region: &Region<'_>) -> core::ops::Range<PlaneId> {
+        let first = region.plane_count();
+        first..first + self.light_planes.len() as PlaneId
     }
 
     /// hull(R, l) within `extent`, or `None` when R is empty.
     fn hull_of_visible(&self, extent: DVec3) -> Option<PlaneList> {
         // Planes that bound the casters anyway need not bound them twice.
-        let known = if self.separate { LIGHT_IDS..VIEW_IDS } else { 0..VIEW_IDS };
+        let of_light = self.light_ids(self.receivers.as_ref()?);
+        let known = if self.caster_list.is_some() { of_light } else { 0..of_light.end };
         PlaneList::hull_of_body(&self.visible(), self.light.homogeneous(), extent, &known)
     }
 }
@@ -221,16 +234,15 @@ pub(crate) fn clip_all(
 }
 
 /// The bound of those boxes that are not wholly outside one of the planes.
-fn union<P: Iterator<Item = Plane>>(boxes: &[Aabb], planes: impl Fn() -> P) -> Option<Region<'static>> {
+fn union<P: Iterator<Item = Plane>>(boxes: &Boxes<'_>, planes: impl Fn() -> P) -> Option<Region<'static>> {
     let (mut lowest, mut highest) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for one in boxes {
-        let (min, max) = (one.min.as_dvec3(), one.max.as_dvec3());
+    boxes.for_each(|_, DAabb { min, max }| {
         let extent = min.abs().max(max.abs());
         let outside = |plane: Plane| plane.loosened(extent).at(farthest_corner(min, max, plane.normal)) < 0.0;
         if !planes().any(outside) {
             (lowest, highest) = (lowest.min(min), highest.max(max));
         }
-    }
+    });
     lowest.is_finite().then_some(Region::Box { min: lowest, max: highest })
 }
 
@@ -264,8 +276,8 @@ struct PlaneList {
 }
 
 impl PlaneList {
-    /// The names left for a hull. Planes past them are left out, which makes the hull larger.
-    const MAX: usize = Polyhedron::MAX_PLANES - VIEW_IDS as usize;
+    /// More than hulls have: planes past them are left out, which makes the hull larger.
+    const MAX: usize = 39;
 
     const EMPTY: Self = Self { planes: [Plane::ONE; Self::MAX], len: 0 };
 

@@ -134,6 +134,7 @@ mod integral;
 mod light;
 mod limit;
 mod map;
+mod narrow;
 mod numbers;
 mod offset;
 mod paraboloid;
@@ -187,7 +188,7 @@ pub use quality::{DepthFormat, Footprint};
 #[cfg(feature = "spade")]
 pub use refine::{Added, Refined, Refiner};
 pub use refusal::Refusal;
-pub use scene::{Aabb, ConvexScene, Scene};
+pub use scene::{Aabb, Bounding, ConvexScene, DAabb, Scene};
 #[cfg(feature = "std")]
 pub use second_depth::{Culling, DepthTest};
 pub use settings::{Effort, Origin, Settings, Shift, Warp};

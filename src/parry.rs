@@ -3,7 +3,7 @@
 extern crate alloc;
 
 use crate::convex::{Body, Plane};
-use crate::error::{InputError, Problem, check};
+use crate::error::{InputError, check};
 use crate::focus::farthest_corner;
 use crate::scene::{Aabb, ConvexScene};
 use alloc::vec::Vec;
@@ -32,7 +32,7 @@ impl ConvexScene {
     ///
     /// # Errors
     ///
-    /// Names `"points"` when there are none, or one is not finite or too large.
+    /// Names `"points"`, with the index, when one is not finite or too large.
     pub fn from_parry(polyhedron: &ConvexPolyhedron) -> Result<Self, InputError> {
         let points = polyhedron.points().iter().map(|&point| from_parry(point).as_dvec3());
         let normals = polyhedron.faces().iter().map(|face| from_parry(face.normal).as_dvec3());
@@ -48,10 +48,10 @@ impl ConvexScene {
     ///
     /// # Errors
     ///
-    /// Names `"points"` when there are none, or one is not finite or too large.
+    /// Names `"points"`, with the index, when one is not finite or too large.
     pub fn hull_of(points: &[Vec3]) -> Result<Self, InputError> {
-        for point in points {
-            check::point(FIELD, point.as_dvec3())?;
+        for (index, point) in points.iter().enumerate() {
+            check::point(FIELD, point.as_dvec3()).map_err(|error| error.of_list(FIELD, index))?;
         }
         let all = points.iter().map(|point| point.as_dvec3());
         let theirs: Vec<Vector> = points.iter().copied().map(to_parry).collect();
@@ -70,12 +70,12 @@ impl ConvexScene {
         normals: impl Iterator<Item = DVec3>,
     ) -> Result<Self, InputError> {
         let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for point in points.clone() {
-            check::point(FIELD, point)?;
+        for (index, point) in points.clone().enumerate() {
+            check::point(FIELD, point).map_err(|error| error.of_list(FIELD, index))?;
             (min, max) = (min.min(point), max.max(point));
         }
         if !min.is_finite() {
-            return check::fail(FIELD, Problem::Empty);
+            return Self::around(points);
         }
         // A cut thinner than this is the rounding of an f32 normal, most often of a face of the box itself.
         let thinnest = 4.0 * f64::from(f32::EPSILON) * (max - min).length();

@@ -74,7 +74,7 @@ fn a_smaller_view_sees_no_more() {
 
 /// A thing between two corners, solid unless told otherwise, whose edges are short.
 fn thing(min: [f32; 3], max: [f32; 3]) -> Object {
-    let bounds = Aabb::new(min.into(), max.into());
+    let bounds = Aabb::new(min, max);
     Object { surface: Surface::Mesh(Solidity::Solid), longest_edge: 1e-3, ..Object::new(bounds) }
 }
 

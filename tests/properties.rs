@@ -341,7 +341,7 @@ fn casters_of_a_list_that_are_all_off_to_one_side() {
     let position = [705.324_430_724_851_4, 1_131.186_833_234_152_8, -313.517_486_177_905_14];
     let axis = [-0.126_285_209_196_612_26, -0.659_095_026_776_971_6, -0.741_381_003_004_548_9];
     let light = Light::hemisphere(position, axis, 116.734_752_513_018_92, f64::INFINITY);
-    let aabb = |[min, max]: [[f32; 3]; 2]| Aabb::new(min.into(), max.into());
+    let aabb = |[min, max]: [[f32; 3]; 2]| Aabb::new(min, max);
     let casters = [aabb([[-706.5983, -1244.3206, 558.4742], [-617.66895, -1073.641, 1225.076]])];
     let receivers = [
         [[-1327.0049, -248.08102, -16.570423], [-572.18225, 584.2471, 1316.6333]],

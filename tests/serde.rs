@@ -176,9 +176,8 @@ fn settings_of_one_size() {
     fields.insert("map_size".into(), width);
     assert_eq!(from_value::<Settings>(stored.clone()).unwrap(), settings);
     stored["map_size"] = json!(3);
-    assert!(
-        from_value::<Settings>(stored).unwrap_err().to_string().contains("map_size must lie in [4, 65536]; got 3")
-    );
+    let error = from_value::<Settings>(stored).unwrap_err().to_string();
+    assert!(error.contains("map_width must lie in [4, 65536]; got 3"), "{error}");
 }
 
 #[test]

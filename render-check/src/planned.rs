@@ -1,7 +1,7 @@
 //! A scene as the planner wants it, and a light's plan as what is drawn.
 
 use anyhow::{Context, Result};
-use shadowfit::glam::{DVec3, Vec3};
+use shadowfit::glam::DVec3;
 use shadowfit::{
     Aabb, CubeFace, DepthFormat, DepthTest, Kind, Light, LightPlan, Object, Objects, Plan, Projection,
 };
@@ -20,13 +20,7 @@ use crate::trace::Faces;
 /// The box around an object of a mesh, no smaller in f32 than it is.
 #[must_use]
 pub fn bounds(object: &scene::Object) -> Aabb {
-    let outwards = |v: DVec3, next: fn(f32) -> f32, is_inside: fn(f64, f64) -> bool| {
-        Vec3::from(v.to_array().map(|x| if is_inside(f64::from(x as f32), x) { next(x as f32) } else { x as f32 }))
-    };
-    Aabb::new(
-        outwards(object.min, f32::next_down, |rounded, exact| rounded > exact),
-        outwards(object.max, f32::next_up, |rounded, exact| rounded < exact),
-    )
+    Aabb::new(object.min, object.max)
 }
 
 /// The objects of a mesh for the planner, in their order. All of them cast and receive.

@@ -91,6 +91,14 @@ impl Plane {
     }
 }
 
+/// From `[x, y, z, offset]`, as other libraries keep planes: inside where `x·X + y·Y + z·Z + offset ≥ 0`.
+impl<F: Into<f64>> From<[F; 4]> for Plane {
+    fn from(row: [F; 4]) -> Self {
+        let [x, y, z, offset] = row.map(Into::into);
+        Self::new(DVec3::new(x, y, z), offset)
+    }
+}
+
 impl core::ops::Add for Plane {
     type Output = Self;
     fn add(self, other: Self) -> Self {

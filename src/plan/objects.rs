@@ -76,7 +76,7 @@ pub struct Objects {
 }
 
 impl Objects {
-    /// Sorts objects. Those that neither cast nor receive play no part.
+    /// Sorts objects. Those that neither cast nor receive play no part, nor do those with an empty box.
     ///
     /// # Errors
     ///
@@ -90,9 +90,11 @@ impl Objects {
         let mut extent = DVec3::ZERO;
         for (index, object) in objects.iter().enumerate() {
             let Aabb { min, max } = object.bounds;
-            let (min, max) =
+            let bounds =
                 checked_box(min.as_dvec3(), max.as_dvec3()).map_err(|error| of_boxes(error, FIELD, index))?;
-            extent = extent.max(min.abs()).max(max.abs());
+            if let Some((min, max)) = bounds {
+                extent = extent.max(min.abs()).max(max.abs());
+            }
             let longest = object.longest_edge;
             if longest.is_nan() || longest < 0.0 {
                 let problem = if longest.is_nan() { Problem::NotFinite } else { Problem::TooSmall };
@@ -101,7 +103,8 @@ impl Objects {
             }
         }
         let those = |are: fn(&Object) -> bool| {
-            let those = (0..).zip(objects).filter(|(_, object)| are(object));
+            let is_somewhere = |object: &Object| object.bounds.min.cmple(object.bounds.max).all();
+            let those = (0..).zip(objects).filter(|(_, object)| are(object) && is_somewhere(object));
             Groups::sorted(those.map(|(id, object)| (id, object.bounds)).collect())
         };
         Ok(Self {

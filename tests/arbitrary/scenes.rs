@@ -46,9 +46,7 @@ impl SceneStore {
 
 impl SceneParams {
     pub(crate) fn store(&self) -> SceneStore {
-        let boxes = |list: &[[[f32; 3]; 2]]| {
-            list.iter().map(|[min, max]| Aabb::new((*min).into(), (*max).into())).collect()
-        };
+        let boxes = |list: &[[[f32; 3]; 2]]| list.iter().map(|[min, max]| Aabb::new(*min, *max)).collect();
         match self {
             Self::Bounds { min, max } => SceneStore::Bounds(*min, *max),
             Self::Cut { min, max, planes } => {

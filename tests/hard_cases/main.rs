@@ -17,6 +17,8 @@
 mod bodies;
 mod camera;
 mod corners;
+mod empty;
+mod far_lists;
 mod figures;
 mod input;
 mod light_and_scene;
