@@ -111,9 +111,9 @@ impl Stable {
         mut visible: impl Iterator<Item = DVec3>,
         settings: &Settings,
     ) -> Result<Self, Refusal> {
-        let (axes, tangent) = light.frustum().ok_or(Refusal::NoRegion)?;
+        let (axes, tangents) = light.frustum().ok_or(Refusal::NoRegion)?;
         // The cosine at the edges of the pyramid, where it is least.
-        let margin = DVec3::new(tangent, tangent, 1.0).length().recip();
+        let margin = tangents.extend(1.0).length().recip();
         let [.., axis] = axes;
         let is_in_front = |point: DVec3| {
             direction_between(position, point).is_some_and(|direction| axis.dot(direction) >= Rays::MIN_MARGIN)
@@ -121,7 +121,7 @@ impl Stable {
         if margin < Rays::MIN_MARGIN || !visible.all(is_in_front) {
             return Err(Refusal::NoRegion);
         }
-        Ok(Self { margin, ..Self::with_room(axes, DVec2::splat(tangent), 0.0, settings) })
+        Ok(Self { margin, ..Self::with_room(axes, tangents, 0.0, settings) })
     }
 
     /// A window around zero with room for `half` to each side, for its border, and for `moves` texels altogether.

@@ -53,7 +53,7 @@ pub struct LightFit {
 }
 
 /// The fit's answer where there is no map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoMap {
     /// None is needed.
     Empty(Empty),

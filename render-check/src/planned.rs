@@ -1,7 +1,6 @@
 //! A scene as the planner wants it, and a light's plan as what is drawn.
 
 use anyhow::{Context, Result};
-use shadowfit::glam::DVec3;
 use shadowfit::{
     Aabb, CubeFace, DepthFormat, DepthTest, Kind, Light, LightPlan, Object, Objects, Plan, Projection,
 };

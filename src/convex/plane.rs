@@ -1,6 +1,7 @@
 //! Planes, as covectors.
 
 use super::exact::sum_of_products;
+use crate::error::{InputError, check};
 use glam::{DMat4, DVec3, DVec4};
 
 /// An oriented plane: inside where `normal · x + offset ≥ 0`. The normal points inwards and need not be unit length.
@@ -83,6 +84,13 @@ impl Plane {
 
     /// What planes are moved outwards by, of the sum of the magnitudes of their terms: 192 roundings.
     pub(crate) const SLACK: f64 = 96.0 * f64::EPSILON;
+
+    /// The plane with a unit normal, checked at the door.
+    pub(crate) fn checked(&self, field: &'static str) -> Result<Self, InputError> {
+        let normal = check::direction(field, self.normal)?;
+        let offset = check::coordinate(field, self.offset * (normal.dot(self.normal)).recip())?;
+        Ok(Self::new(normal, offset))
+    }
 
     /// The plane as a row: `(normal, offset)`.
     #[must_use]

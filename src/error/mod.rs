@@ -159,6 +159,8 @@ pub enum Problem {
     NotAProjection,
     /// A light that shines neither all around nor into a half space.
     NotAllAround,
+    /// A light that shines into no cone.
+    NotASpot,
     /// A list with nothing in it.
     Empty,
     /// A list longer than its documentation allows.
@@ -181,6 +183,7 @@ impl fmt::Display for Problem {
             Self::NotAProjection => {
                 "is no perspective or orthographic projection with its near plane facing the eye"
             }
+            Self::NotASpot => "is no spot",
             Self::NotAllAround => "shines neither all around nor into a half space",
             Self::Empty => "is empty",
             Self::TooMany => "holds too many elements",

@@ -32,6 +32,9 @@ pub struct ConvexScene {
     max: DVec3,
 }
 
+/// What planes are called in an [`InputError`].
+const FIELD: &str = "planes";
+
 impl ConvexScene {
     /// The most planes that may cut the box: enough for a turned box cut by a cone of twelve planes, and for the directions to
     /// the edges of a cube ([`Self::around`]).
@@ -55,7 +58,7 @@ impl ConvexScene {
     ) -> Result<Self, InputError> {
         let bounds = checked_box(vector(min), vector(max))?;
         for (index, plane) in planes.iter().enumerate() {
-            unit(plane).map_err(|error| error.of_list("planes", index))?;
+            plane.checked(FIELD).map_err(|error| error.of_list(FIELD, index))?;
         }
         let Some((min, max)) = bounds else { return Ok(Self::EMPTY) };
         Ok(match planes.len() {
@@ -71,7 +74,7 @@ impl ConvexScene {
         // As many as have names.
         let named = || (6..Polyhedron::MAX_PLANES as PlaneId).zip(planes);
         for (id, plane) in named() {
-            if let Ok(plane) = unit(plane) {
+            if let Ok(plane) = plane.checked(FIELD) {
                 body.clip(&plane.loosened(extent), id);
             }
         }
@@ -98,7 +101,7 @@ impl ConvexScene {
         scene.planes[..6].copy_from_slice(&box_planes(min, max));
         let extent = min.abs().max(max.abs());
         for (id, plane) in (6..).zip(planes) {
-            let Ok(plane) = unit(plane) else { continue };
+            let Ok(plane) = plane.checked(FIELD) else { continue };
             let plane = plane.loosened(extent);
             scene.body.clip(&plane, id);
             scene.planes[usize::from(id)] = plane;
@@ -160,15 +163,7 @@ impl ConvexScene {
     }
 }
 
-/// A plane with a unit normal, checked.
-fn unit(plane: &Plane) -> Result<Plane, InputError> {
-    const FIELD: &str = "planes";
-    let normal = check::direction(FIELD, plane.normal)?;
-    let offset = check::coordinate(FIELD, plane.offset * (normal.dot(plane.normal)).recip())?;
-    Ok(Plane::new(normal, offset))
-}
-
 /// Whether all of a body is outside of a plane.
 fn misses(plane: &Plane, body: &Polyhedron, extent: DVec3) -> bool {
-    unit(plane).is_ok_and(|plane| body.positions().all(|point| plane.loosened(extent).at(point) < 0.0))
+    plane.checked(FIELD).is_ok_and(|plane| body.positions().all(|point| plane.loosened(extent).at(point) < 0.0))
 }

@@ -70,6 +70,12 @@ fn of_light(light: &mut LightParams, change: &mut impl FnMut(&mut f64)) {
         LightParams::Hemisphere { position, axis, near, range } => {
             position.iter_mut().chain(axis).chain([near]).chain(range).for_each(change);
         }
+        LightParams::Pyramid { position, axis, up, tangents, near, range } => {
+            position.iter_mut().chain(axis).chain(up).chain(tangents).chain([near]).chain(range).for_each(change);
+        }
+        LightParams::Within { position, near, range, planes } => {
+            position.iter_mut().chain(planes.iter_mut().flatten()).chain([near]).chain(range).for_each(change);
+        }
         LightParams::CubeFace { position, axis, near, range, overlap, .. } => {
             position
                 .iter_mut()

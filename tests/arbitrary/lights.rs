@@ -4,8 +4,8 @@ use glam::DVec3;
 use proptest::prelude::*;
 use shadowfit::{CubeFace, InputError, Light, View};
 
-use super::Similarity;
 use super::primitive::{almost_zero, direction, lattice_direction, magnitude, nudged};
+use super::{Similarity, params::plane};
 
 /// The arguments of one of the constructors of a [`Light`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +40,21 @@ pub(crate) enum LightParams {
         face: usize,
         overlap: f64,
     },
+    Pyramid {
+        position: [f64; 3],
+        axis: [f64; 3],
+        up: [f64; 3],
+        tangents: [f64; 2],
+        near: f64,
+        range: Option<f64>,
+    },
+    /// A point light within planes.
+    Within {
+        position: [f64; 3],
+        near: f64,
+        range: Option<f64>,
+        planes: [[f64; 4]; 3],
+    },
 }
 
 impl LightParams {
@@ -59,6 +74,12 @@ impl LightParams {
                 Some(axis) => Light::hemisphere(position, axis, near, or_infinity(range)),
             }
             .and_then(|light| light.cube_face(CubeFace::ALL[face], overlap)),
+            Self::Pyramid { position, axis, up, tangents, near, range } => {
+                Light::pyramid(position, axis, up, tangents, near, or_infinity(range))
+            }
+            Self::Within { position, near, range, planes } => {
+                Light::point(position, near, or_infinity(range)).and_then(|light| light.within(&planes.map(plane)))
+            }
         }
     }
 
@@ -86,6 +107,20 @@ impl LightParams {
                 range: length(range),
                 face,
                 overlap,
+            },
+            Self::Pyramid { position, axis, up, tangents, near, range } => Self::Pyramid {
+                position: by.point(position),
+                axis,
+                up,
+                tangents,
+                near: by.length(near),
+                range: length(range),
+            },
+            Self::Within { position, near, range, planes } => Self::Within {
+                position: by.point(position),
+                near: by.length(near),
+                range: length(range),
+                planes: planes.map(|plane| by.plane(plane)),
             },
         }
     }

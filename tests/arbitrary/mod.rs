@@ -6,7 +6,7 @@
 //!
 //! - `params`: the numbers, what the crate makes of them, and a similarity that moves them.
 //! - `primitive`: directions, magnitudes, and values a few ulps from another.
-//! - `views`, `lights`, `scenes`: one strategy for each concept.
+//! - `views`, `lights`, `scenes`: one strategy for each concept; `doors`: pyramids, lights within planes, many planes.
 //! - `together`: a case brought together, with settings, and points to try a map on.
 //! - `bytes`, `edits`, `corpus`: cases from the bytes of a fuzzer, and those that fuzzing has kept.
 
@@ -15,6 +15,7 @@
 
 mod bytes;
 mod corpus;
+mod doors;
 mod edits;
 mod lights;
 mod params;
@@ -25,6 +26,7 @@ mod views;
 
 pub(crate) use bytes::{ShownOnPanic, case_with, drawn};
 pub(crate) use corpus::replay;
+pub(crate) use doors::wide_door;
 pub(crate) use edits::numbers;
 pub(crate) use lights::LightParams;
 pub(crate) use params::{Case, Similarity, plane};

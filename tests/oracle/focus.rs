@@ -30,7 +30,7 @@ use std::cmp::Ordering;
 use glam::{DVec3, Vec3};
 use shadowfit::{Aabb, Body as Computed, Focus, Form, Plane, View};
 
-use crate::arbitrary::{Case, SceneParams, case, plane, run};
+use crate::arbitrary::{Case, SceneParams, case, plane, run, wide_door};
 use crate::body::Body;
 use crate::cone::generators;
 use crate::exact::sqrt_ratio;
@@ -334,6 +334,13 @@ fn bodies_hold_the_exact_ones_and_little_more() {
 }
 
 /// Compares the three bodies of one case, for the fuzz target and for what it has kept.
+/// The same of pyramids, lights within planes, and scenes of up to twelve cuts.
+#[test]
+fn bodies_through_wide_doors_hold_the_exact_ones_and_little_more() {
+    let figures = RefCell::<[Figures; 3]>::default();
+    run(300, &wide_door(12), |case| check(&case, &mut figures.borrow_mut()));
+}
+
 pub(crate) fn check_case(case: &Case) {
     check(case, &mut Default::default());
 }
