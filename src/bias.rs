@@ -12,9 +12,9 @@ use glam::DVec3;
 ///
 /// # Use
 ///
-/// `constant` and `slope` go to the rasteriser that draws casters, away from the light; where depth is reversed, that is
-/// towards smaller values, and **the caller negates both**. `receiver` goes to the shadow test, through
-/// [`Map::texture_matrix_with`], which knows about reversed depth by itself.
+/// `constant` and `slope` go to the rasteriser that draws casters, as they are: they have the sign of the map's clip space, which is
+/// away from the light, and negative where depth is reversed. `receiver` goes to the shadow test, through
+/// [`Map::texture_matrix_with`] or, in clip space, [`Map::matrix_with`].
 ///
 /// | | constant | slope | clamp |
 /// |---|---|---|---|
@@ -113,9 +113,10 @@ use glam::DVec3;
 pub struct DepthBias {
     /// The format that it is for.
     pub format: DepthFormat,
-    /// Units of constant bias, away from the light, see [`DepthFormat::bias_unit`].
+    /// Units of constant bias, see [`DepthFormat::bias_unit`]: negative where depth is reversed.
     pub constant: i32,
-    /// What multiplies the slope: the larger of depth's changes to the next texel, across and down.
+    /// What multiplies the slope, the larger of depth's changes to the next texel, across and down: negative where depth is
+    /// reversed.
     pub slope: f32,
     /// What receivers are tested nearer to the light by all over the map, where the depth range is 1.
     pub receiver: f64,
@@ -149,6 +150,12 @@ pub(crate) fn checked_reach(reach: f64) -> Result<f64, InputError> {
     check::within("reach", reach, Expected::Within { least: 0.5, most: Settings::MAX_SIZE.into() })
 }
 
+/// What a rasteriser adds to depth away from the light, where the depth range is 1, a unit is so much, and depth changes so much
+/// to the next texel.
+pub(crate) fn away(bias: &DepthBias, unit: f64, slope: f64) -> f64 {
+    f64::from(bias.constant.saturating_abs()) * unit + f64::from(bias.slope.abs()) * slope
+}
+
 /// The next multiple of [`SLOPE_STEP`] above a slope.
 pub(crate) fn stepped(slope: f64) -> f32 {
     (f64::from((slope / SLOPE_STEP) as u32 + 1) * SLOPE_STEP) as f32
@@ -161,13 +168,15 @@ impl DepthBias {
         Offset::of(self.relative, self.receiver)
     }
 
-    /// The constant that does without the receiver's part; `None` in floating point, where none does.
+    /// The constant that does without the receiver's part, with the sign of the map's clip space; `None` in floating point, where
+    /// none does.
     #[must_use]
     pub fn constant_alone(&self) -> Option<i32> {
         match self.format {
             DepthFormat::Unorm8 | DepthFormat::Unorm16 | DepthFormat::Unorm24 => {
                 let units = self.most / self.format.bias_unit(1.0).start();
-                Some(self.constant.saturating_add(units as i32).saturating_add(1))
+                let away = self.constant.saturating_abs().saturating_add(units as i32).saturating_add(1);
+                Some(away.saturating_mul(self.constant.signum()))
             }
             DepthFormat::Float32 => None,
         }
@@ -208,10 +217,11 @@ impl Map {
         // must not grow instead.
         let left = |row: usize| self.rows[row].on(self.light.homogeneous()).abs();
         let to_light = to_light.max(left(2)).max(left(3));
+        let away = if self.settings.clip().depth.is_reversed() { -1 } else { 1 };
         Ok(DepthBias {
             format,
-            constant: 1,
-            slope: stepped(slope),
+            constant: away,
+            slope: stepped(slope) * away as f32,
             receiver,
             relative: over_w / to_light,
             most: receiver + over_w / least_w,
@@ -232,8 +242,7 @@ impl Map {
         };
         let unit = bias.format.bias_unit(1.0);
         // The constant, the slope as the length of the gradient, and the rounding of what is stored.
-        let added =
-            f64::from(bias.constant) * unit.end() + f64::from(bias.slope) * slopes.length() + bias.format.step(0.5);
+        let added = away(bias, *unit.end(), slopes.length()) + bias.format.step(0.5);
         let [_, _, depth, w] = &self.rows;
         let tested = bias.offset().depth_row(*depth, *w, self.light.homogeneous(), &self.along);
         let ray = -self.light.direction_from(point);

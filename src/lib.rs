@@ -135,6 +135,7 @@ mod light;
 mod limit;
 mod map;
 mod narrow;
+mod normal_offset;
 mod numbers;
 mod offset;
 mod paraboloid;

@@ -157,9 +157,25 @@ impl Map {
     /// World space to texture space with an offset, see [`Self::texture_matrix_with`].
     #[must_use]
     pub fn texture_from_world_with(&self, offset: &Offset) -> DMat4 {
+        matrix_from_rows(self.settings.clip().texture_rows_from_wgpu(self.rows_with(offset)))
+    }
+
+    /// [`Self::texture_matrix_with`] in clip space, for shaders that go from there to texture coordinates themselves: depth is
+    /// that of clip space, from −1 to 1 where the settings say so.
+    #[must_use]
+    pub fn matrix_with(&self, offset: &Offset) -> Mat4 {
+        self.about_origin(self.shadow_from_world_with(offset)).as_mat4()
+    }
+
+    /// World space to clip space with an offset, see [`Self::matrix_with`].
+    #[must_use]
+    pub fn shadow_from_world_with(&self, offset: &Offset) -> DMat4 {
+        matrix_from_rows(self.settings.clip().rows_from_wgpu(self.rows_with(offset)))
+    }
+
+    fn rows_with(&self, offset: &Offset) -> [Plane; 4] {
         let [x, y, z, w] = self.rows;
-        let moved = offset.depth_row(z, w, self.light.homogeneous(), &self.along);
-        matrix_from_rows(self.settings.clip().texture_rows_from_wgpu([x, y, moved, w]))
+        [x, y, offset.depth_row(z, w, self.light.homogeneous(), &self.along), w]
     }
 
     /// Depth as a linear function of world space, for maps that a shader writes: the distance along the map's axis, 0 at
@@ -234,8 +250,10 @@ impl Map {
         self.noise.place.at(self.w_at(point))
     }
 
-    /// w at a point, at most 1 where anything is visible.
-    pub(crate) fn w_at(&self, point: DVec3) -> f64 {
+    /// w at a point, as the matrices have it but for rounding: positive in front of the light, and at most 1 where anything is
+    /// visible.
+    #[must_use]
+    pub fn w_at(&self, point: DVec3) -> f64 {
         self.rows[3].at(point)
     }
 

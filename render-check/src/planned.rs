@@ -105,7 +105,7 @@ fn drawn(pass: &shadowfit::Pass, options: &Options) -> MapPass {
     let Options { format, faces, points, .. } = *options;
     let none = MapPass { format, faces, bias: Bias::NONE, receiver: 0.0, relative: 0.0, points };
     pass.bias().map_or(none, |bias| MapPass {
-        bias: Bias { constant: bias.constant, slope: bias.slope },
+        bias: Bias::away(bias),
         receiver: bias.receiver,
         relative: bias.relative,
         ..none

@@ -85,7 +85,7 @@ impl Options {
             (None, Faces::Second | Faces::Layers, _) | (None, _, Filter::Virtual(_)) => (Bias::NONE, (0.0, 0.0)),
             _ => {
                 let enough = map.bias(self.format, self.filter.reach())?;
-                (Bias { constant: enough.constant, slope: enough.slope }, (enough.receiver, enough.relative))
+                (Bias::away(&enough), (enough.receiver, enough.relative))
             }
         };
         Ok(MapPass { format: self.format, faces: self.faces, bias, receiver, relative, points: self.points })

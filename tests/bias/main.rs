@@ -6,6 +6,7 @@
 //! - `simulate`: a card in software, which draws a plane into a map and compares a receiver on it.
 //! - `planes`: with the bias no plane shadows itself there, and with less some do.
 //! - `offsets`: what each kind of offset moves receivers by.
+//! - `normals`: receivers moved along their normals, and the sign of a bias.
 //! - `figures`: units, steps and costs in one scene.
 
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
@@ -13,6 +14,7 @@
 #[path = "../arbitrary/mod.rs"]
 mod arbitrary;
 mod figures;
+mod normals;
 mod offsets;
 mod planes;
 mod simulate;

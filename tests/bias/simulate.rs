@@ -235,7 +235,7 @@ pub(crate) fn margin(
     let (depth, gradient) = triangle.depth(middle);
     let unit = *bias.format.bias_unit(depth.clamp(0.0, 1.0)).start();
     let added = f64::from(bias.constant) * unit + f64::from(bias.slope) * gradient.abs().max_element();
-    let stored = quantised(bias.format, depth + sign * added, how.round, card.reversed);
+    let stored = quantised(bias.format, depth + added, how.round, card.reversed);
     let compared = read.z.clamp(0.0, 1.0);
     let compared = match how.round {
         Round::TowardsLight => compared,

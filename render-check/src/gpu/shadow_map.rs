@@ -26,6 +26,12 @@ pub struct Bias {
 impl Bias {
     /// No bias.
     pub const NONE: Self = Self { constant: 0, slope: 0.0 };
+
+    /// What a map asks for, as a bias away from the light: the sign of its clip space is put on again where it is drawn.
+    #[must_use]
+    pub const fn away(bias: &shadowfit::DepthBias) -> Self {
+        Self { constant: bias.constant.abs(), slope: bias.slope.abs() }
+    }
 }
 
 /// How casters are drawn into a map.
