@@ -17,8 +17,8 @@ impl<'a> Focus<'a> {
     /// let sun = Light::directional((0.4, 1.0, 0.2))?;
     /// let ground = Aabb::new([-200.0, 0.0, -200.0], [200.0, 0.0, 200.0]);
     /// let (tree, behind) = (Aabb::new([3.0, 0.0, -9.0], [5.0, 4.0, -7.0]), Aabb::new([3.0, 0.0, 90.0], [5.0, 4.0, 92.0]));
-    /// let casters = [ground, behind, tree];
-    /// let focus = Focus::new(&view, &sun, &Scene::new(&casters, &[ground])?);
+    /// let (casters, receivers) = ([ground, behind, tree], [ground]);
+    /// let focus = Focus::new(&view, &sun, &Scene::new(&casters, &receivers)?);
     /// assert!(focus.casters().eq([0, 2]));
     /// # Ok::<(), shadowfit::InputError>(())
     /// ```

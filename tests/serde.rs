@@ -95,6 +95,12 @@ fn lights() {
     comes_back(Light::directional((0.3, 1.0, 0.2)).unwrap());
     comes_back(Light::point((0.3, 1.0, 0.2), 0.1, f64::INFINITY).unwrap());
     comes_back(spot());
+    comes_back(spot().with_up((0.3, 0.2, 0.9)).unwrap());
+    let pyramid =
+        Light::pyramid((0.3, 1.0, 0.2), (0.2, -1.0, 0.7), (1.0, 0.5, 0.0), [0.5, 0.25], 0.1, 9.0).unwrap();
+    comes_back(pyramid);
+    let planes = [Plane::new(DVec3::new(0.6, 0.8, 0.0), 4.0), Plane::new(DVec3::NEG_Z, 2.0)];
+    comes_back(pyramid.within(&planes).unwrap());
     let hemisphere = Light::hemisphere((0.3, 1.0, 0.2), (0.2, -1.0, 0.7), 0.1, 9.0).unwrap();
     comes_back(hemisphere);
     for face in CubeFace::ALL {

@@ -72,7 +72,8 @@ pub(crate) struct Polyhedron {
 
 impl Polyhedron {
     /// The slots. A box, a light's seven planes and a hull's ten have at most `2 · 23 − 4 = 42` vertices, and the last
-    /// cut at most 22 new ones beside the 40 before it.
+    /// cut at most 22 new ones beside the 40 before it. Scenes of many cuts and lights within planes have more: where there is
+    /// no room, a plane does not cut.
     pub(crate) const MAX_VERTICES: usize = 64;
     /// The planes that may be named.
     pub(crate) const MAX_PLANES: usize = 64;

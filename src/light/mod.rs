@@ -219,7 +219,9 @@ impl Light {
         }
         let mut within = [None; Self::MAX_WITHIN];
         for (index, (slot, plane)) in within.iter_mut().zip(planes).enumerate() {
-            *slot = Some(plane.checked("planes").map_err(|error| error.of_list("planes", index))?);
+            let checked = plane.checked("planes").map_err(|error| error.of_list("planes", index))?;
+            // One with a unit normal stays as it is to the last bit.
+            *slot = Some(if checked.normal == plane.normal { *plane } else { checked });
         }
         Ok(Self { within, ..self })
     }
@@ -363,7 +365,12 @@ impl Light {
 /// The unit direction across an axis towards `up`.
 fn across(axis: DVec3, up: DVec3) -> Result<DVec3, InputError> {
     let up = check::direction("up", up)?;
-    let across = up - axis * up.dot(axis);
+    // One that is across already stays as it is to the last bit.
+    let along = up.dot(axis);
+    if along.abs() <= 4.0 * f64::EPSILON {
+        return Ok(up);
+    }
+    let across = up - axis * along;
     // Nearer to the axis than this its direction is rounding.
     if across.length() < 1e-9 { check::fail("up", Problem::Parallel) } else { Ok(across.normalize()) }
 }

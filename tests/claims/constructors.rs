@@ -2,9 +2,9 @@
 
 use glam::{DMat4, DVec3, Vec3, Vec4};
 use shadowfit::{
-    Aabb, ClipSpace, ConvexScene, CubeFace, Cuts, DepthFormat, DepthRange, Filter, Focus, Form, InputError, Layout,
-    Light, Map, Offset, Origin, Outcome, Paraboloid, Plane, Scene, Settings, Shift, Slices, Split, TangentPlane,
-    TextureOrigin, View, Warp, YAxis,
+    Aabb, ClipSpace, ConvexScene, CubeFace, Cuts, DAabb, DepthFormat, DepthRange, Filter, Focus, Form, InputError,
+    Layout, Light, Map, Offset, Origin, Outcome, Paraboloid, Plane, Scene, Settings, Shift, Slices, Split,
+    TangentPlane, TextureOrigin, View, Warp, YAxis,
 };
 
 use super::results::exercise;
@@ -185,11 +185,49 @@ pub(crate) fn take_any_bits(bytes: &[u8]) {
     if let Ok(scene) = Scene::from_box(bits.triple(), bits.triple()) {
         sliced(&mut bits, &view, &light, &scene, &settings);
     }
+    through_wide_doors(&mut bits, &view, &light, &settings);
+}
+
+/// Pyramids, lights that turn and are within planes, scenes of many planes, and lists in double precision about any origin.
+fn through_wide_doors(bits: &mut Bits<'_>, view: &View, light: &Light, settings: &Settings) {
+    let plane = |bits: &mut Bits<'_>| Plane::new(bits.point(), bits.number());
+    let other = match bits.below(3) {
+        0 => Light::pyramid(
+            bits.triple(),
+            bits.triple(),
+            bits.triple(),
+            [bits.number(), bits.number()],
+            bits.number(),
+            bits.number(),
+        ),
+        1 => light.with_up(bits.triple()),
+        _ => Ok(*light),
+    };
+    let light = other.and_then(|light| light.within(&bits.list(7, plane)));
+    let Ok(light) = light else { return };
+    if bits.below(2) == 0 {
+        let body = ConvexScene::new(bits.triple(), bits.triple(), &bits.list(70, plane));
+        let scene = body.as_ref().map(Scene::from_convex).map_err(|error| *error);
+        with_scene(bits, view, &light, scene, settings);
+    } else {
+        let list = |bits: &mut Bits<'_>| bits.list(4, |bits| DAabb::new(bits.triple(), bits.triple()));
+        let (casters, receivers) = (list(bits), list(bits));
+        let Ok(scene) = Scene::relative_to(bits.triple(), &casters, &receivers) else { return };
+        let drawn = Focus::new(view, &light, &scene).casters().count();
+        assert!(drawn <= casters.len());
+        std::hint::black_box(view.narrowed_to(&scene));
+        with_scene(bits, view, &light, Ok(scene), settings);
+    }
 }
 
 /// Asserts that a view is cut at any bytes, or refused with the name of an argument.
 pub(crate) fn cut_at_any_bits(bytes: &[u8], view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) {
     sliced(&mut Bits(bytes), view, light, scene, settings);
+}
+
+/// Asserts that any bytes through the wide doors give results or an error.
+pub(crate) fn widen_by_any_bits(bytes: &[u8], view: &View, light: &Light, settings: &Settings) {
+    through_wide_doors(&mut Bits(bytes), view, light, settings);
 }
 
 fn with_scene(
@@ -256,6 +294,8 @@ fn asked(bits: &mut Bits<'_>, map: &Map) {
     if let Ok(bias) = map.bias(format, bits.number()) {
         assert!(bias.slope.is_finite() && bias.receiver.is_finite() && bias.relative.is_finite(), "{bias:?}");
         std::hint::black_box(map.bias_distance(point, normal, &bias));
+        let (offset, most) = (map.normal_offset(point, normal, &bias), map.normal_offset_at(point, &bias));
+        assert!(offset >= 0.0 && most >= 0.0, "{offset}, {most}");
         assert!(map.texture_matrix_with(&bias.offset()).is_finite(), "{bias:?}");
     }
     let offset = match bits.below(3) {
@@ -265,6 +305,7 @@ fn asked(bits: &mut Bits<'_>, map: &Map) {
     };
     if let Ok(offset) = offset.and_then(|offset| offset.and_depth(bits.number())) {
         assert!(map.texture_from_world_with(&offset).is_finite(), "{offset:?}");
+        assert!(map.shadow_from_world_with(&offset).is_finite(), "{offset:?}");
     }
 }
 
