@@ -144,6 +144,23 @@ fn planes_that_bound_nothing_take_no_room() {
     }
 }
 
+/// A scene of as many cuts as can be leaves room for all planes of a spot and a view: none of V is left out.
+#[test]
+fn there_is_room_for_the_view_beside_many_cuts() {
+    let mut rng = StdRng::seed_from_u64(5);
+    for _ in 0..500 {
+        let cuts: Vec<Plane> =
+            (0..ConvexScene::MAX_CUTS).map(|_| Plane::new(turned(&mut rng) * DVec3::X, 10.0)).collect();
+        let scene = ConvexScene::new(DVec3::splat(-12.0), DVec3::splat(12.0), &cuts).expect("many");
+        let (eye, forward) =
+            (turned(&mut rng) * DVec3::Z * rng.random_range(0.0..15.0), turned(&mut rng) * DVec3::X);
+        let view = View::perspective(eye, forward, (0.1, 0.9, 0.3), 1.0, 1.5, 0.1, 15.0).expect("sound");
+        let light = Light::spot((0.0, 14.0, 0.0), (0.0, -1.0, 0.0), 1.0, 0.1, 60.0).expect("sound");
+        let body = Focus::new(&view, &light, &Scene::from_convex(&scene)).visible();
+        assert!(body.vertices().iter().all(|vertex| view.planes().iter().all(|plane| plane.at(*vertex) >= -1e-9)));
+    }
+}
+
 fn view() -> View {
     View::perspective((0.0, 3.0, 20.0), (0.0, -0.1, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 100.0).expect("sound")
 }
