@@ -456,6 +456,7 @@ fn messages_are_sentences() {
         Light::point(EYE, NAN, 9.0).unwrap_err(),
         Light::directional(DVec3::X).unwrap().cube_face(CubeFace::PositiveX, 0.0).unwrap_err(),
         Scene::from_box(DVec3::ONE, with(DVec3::ONE, 1, 0.5)).unwrap_err(),
+        Scene::from_box(DVec3::ONE, DVec3::ZERO).unwrap_err(),
         Scene::new(&boxes, &[]).unwrap_err(),
         Scene::new(&boxes[..2], &[Aabb::new(Vec3::splat(f32::MIN), Vec3::splat(f32::MAX))]).unwrap_err(),
         ConvexScene::new(DVec3::ZERO, DVec3::ONE, &[Plane::new(DVec3::X, 0.0), Plane::ONE]).unwrap_err(),

@@ -12,18 +12,10 @@ pub enum Hint {
     FullAngle,
     /// 0 for a light without limit, as some engines have it; here that is infinity.
     NoLimit,
-    /// Least and largest, or near and far, have changed places.
+    /// Least and largest have changed places.
     Swapped,
     /// Bounds of an object that has none, as engines mark what must never be culled.
     Unbounded,
-    /// A matrix by rows where columns are taken.
-    Transposed,
-    /// A camera's pose, world ← eye, where its inverse is taken.
-    NotInverted,
-    /// A projection for reversed depth, read as if it were not, or the other way round.
-    ReversedDepth,
-    /// A projection for another clip space.
-    OtherClipSpace,
 }
 
 impl fmt::Display for Hint {
@@ -34,10 +26,6 @@ impl fmt::Display for Hint {
             Self::NoLimit => "No limit? That is f64::INFINITY.",
             Self::Swapped => "Swapped?",
             Self::Unbounded => "An object without bounds? Give it those of the world, or leave it out.",
-            Self::Transposed => "Transposed? Matrices are arrays of columns, for column vectors.",
-            Self::NotInverted => "The camera's pose? The view matrix is its inverse.",
-            Self::ReversedDepth => "Is its depth reversed? `ClipSpace::reversed` says whether it is.",
-            Self::OtherClipSpace => "Was it made for another clip space?",
         })
     }
 }

@@ -197,7 +197,8 @@ pub(crate) fn checked_box(min: DVec3, max: DVec3) -> Result<Option<(DVec3, DVec3
         if least > most {
             let field = ["min.x", "min.y", "min.z"][axis];
             let expected = Expected::AtLeast { field, value: least };
-            return Err(InputError::new("max", Problem::OutOfOrder).of_axis(axis).got(most).expected(expected));
+            let error = InputError::new("max", Problem::OutOfOrder).of_axis(axis).got(most).expected(expected);
+            return Err(error.hinted(min.cmpge(max).all().then_some(Hint::Swapped)));
         }
     }
     Ok(Some((min, max)))

@@ -7,7 +7,11 @@ mod region;
 pub use boxes::{Aabb, Bounding, DAabb};
 pub use convex::ConvexScene;
 
-pub(crate) use boxes::{Boxes, checked_box, of_boxes};
+pub(crate) use boxes::Boxes;
+#[cfg(not(feature = "std"))]
+use boxes::checked_box;
+#[cfg(feature = "std")]
+pub(crate) use boxes::{checked_box, of_boxes};
 pub(crate) use region::Region;
 
 use crate::error::{InputError, check};
@@ -111,6 +115,7 @@ impl<'a> Scene<'a> {
     }
 
     /// The same as [`Self::new`] for boxes that are known to be sound.
+    #[cfg(feature = "std")]
     pub(crate) fn of_checked(casters: &'a [Aabb], receivers: &'a [Aabb]) -> Self {
         let [casters, receivers] = [casters, receivers].map(|boxes| Boxes::new(boxes, DVec3::ZERO));
         Self { bounds: Bounds::Lists { casters, receivers, extent: casters.extent() } }
