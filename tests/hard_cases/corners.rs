@@ -35,7 +35,7 @@ fn assert_serves(map: &Map, light: &Light) {
         for part in [1.0, 0.5, 0.1, light.near() / arm.length()] {
             let point = position + arm * part;
             if (point - position).length() >= light.near() {
-                assert!(is_inside(in_f32(map, &view(), point)), "{point} of {light:?}");
+                assert!(is_inside(in_f32(map, point)), "{point} of {light:?}");
             }
         }
     }

@@ -37,7 +37,7 @@ fn lost(scene: &Scene<'_>) -> (usize, usize) {
             let point = FAR + one.min + (one.max - one.min) * side;
             if view().planes().iter().all(|plane| plane.at(point) >= 0.0) {
                 seen += 1;
-                lost += usize::from(!is_inside(in_f32(&map, &view(), point)));
+                lost += usize::from(!is_inside(in_f32(&map, point)));
             }
         }
     }
