@@ -2,6 +2,7 @@
 
 use crate::convex::{Body, Plane};
 use crate::focus::{Focus, Form, farthest_corner};
+use crate::light::Light;
 use crate::numbers::vector;
 use crate::scene::Aabb;
 use glam::{DVec3, Vec3, Vec4};
@@ -173,5 +174,36 @@ impl Culler {
                 *meets = least >= 0.0;
             }
         }
+    }
+}
+
+impl Light {
+    /// The largest near distance that cuts off no caster, in world units: how far the nearest of some boxes is from a light at a
+    /// position, of those that are not wholly outside of what it reaches. 0 where the light stands in one; `None` for a directional
+    /// light, which has no near distance, and where no box is reached.
+    ///
+    /// A smaller near distance buys nothing: depth is hyperbolic, and the air next to the light takes most of its steps
+    /// ([`Map::depth_beside_light`](crate::Map::depth_beside_light)).
+    ///
+    /// ```
+    /// use shadowfit::{Aabb, Light};
+    ///
+    /// let lamp = Light::point((0.0, 3.0, 0.0), 0.05, 20.0)?;
+    /// let table = Aabb::new([-1.0, 0.0, -1.0], [1.0, 1.0, 1.0]);
+    /// assert_eq!(lamp.distance_to_casters(&[table]), Some(2.0));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
+    #[must_use]
+    pub fn distance_to_casters(&self, casters: &[Aabb]) -> Option<f64> {
+        let position = self.position()?;
+        let planes = self.planes();
+        let distance = |one: &Aabb| {
+            let (min, max) = (one.min.as_dvec3(), one.max.as_dvec3());
+            let outside = |plane: &Plane| {
+                plane.loosened(min.abs().max(max.abs())).at(farthest_corner(min, max, plane.normal)) < 0.0
+            };
+            (!planes.iter().any(outside)).then(|| position.distance(position.clamp(min, max)))
+        };
+        casters.iter().filter_map(distance).min_by(f64::total_cmp)
     }
 }

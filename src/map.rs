@@ -11,7 +11,7 @@ use crate::perspective::{LightClass, VirtualCamera, classify};
 use crate::quality::{DepthFormat, Footprint, depth_resolution, depth_slopes, footprint, linear_depth_resolution};
 use crate::rays::Rays;
 use crate::refusal::Refusal;
-use crate::rounding::MapNoise;
+use crate::rounding::{AWAY_FROM_LAMP, MapNoise};
 use crate::settings::{Origin, Settings, Warp};
 use crate::view::View;
 use glam::{DMat4, DVec2, DVec3, Mat4};
@@ -250,6 +250,22 @@ impl Map {
         self.noise.place.at(self.w_at(point))
     }
 
+    /// The part of the depth range of a light at a position that lies in the air beside it: nearer, along the axis of the map, than
+    /// a 16th of the way to the far end. 0 for a directional light.
+    ///
+    /// Depth is hyperbolic. With a near distance of a thousandth of the far one it is 0.985, and all that is lit shares the rest of the
+    /// steps. Next to 1 it says that the near distance costs precision; what casters allow says
+    /// [`Light::distance_to_casters`](crate::Light::distance_to_casters).
+    #[must_use]
+    pub fn depth_beside_light(&self) -> f64 {
+        let DepthSpan { near, far, .. } = self.depth;
+        if self.light.position().is_none() || near >= far {
+            return 0.0;
+        }
+        let beside = (far * AWAY_FROM_LAMP).clamp(near, far);
+        (near.recip() - beside.recip()) / (near.recip() - far.recip())
+    }
+
     /// w at a point, as the matrices have it but for rounding: positive in front of the light, and at most 1 where anything is
     /// visible.
     #[must_use]
@@ -350,6 +366,7 @@ impl Map {
             linear_depth_resolution: DepthResolution::new(|format| {
                 over(&|point| self.linear_depth_resolution(point, format))
             }),
+            depth_beside_light: self.depth_beside_light(),
             visible,
         }
     }
@@ -379,6 +396,8 @@ pub struct Report {
     pub window: Window,
     /// What depth covers.
     pub depth: DepthSpan,
+    /// The part of it that lies in the air beside a light at a position, see [`Map::depth_beside_light`].
+    pub depth_beside_light: f64,
     /// The longest side of a texel's footprint over the vertices of R, in world units.
     pub texel: f64,
     /// The worst aliasing over the vertices of R, see [`Map::aliasing`]. There may be more between them:

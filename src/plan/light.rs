@@ -257,6 +257,11 @@ impl Planner<'_> {
         if kind == Kind::CubeFaces {
             reasons.push(Reason::Faces(passes.len() as u32));
         }
+        if let Some(nearest) = focus.light().distance_to_casters(&reach.casters)
+            && nearest > 2.0 * focus.light().near()
+        {
+            reasons.push(Reason::NearTooSmall(nearest));
+        }
         if size < self.most {
             reasons.push(Reason::SmallerMap(size));
         }

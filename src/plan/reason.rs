@@ -38,6 +38,9 @@ pub enum Reason {
     CoarseCasters,
     /// A cube's faces: so many of the six have something to show.
     Faces(u32),
+    /// The nearest caster is so far from the light, more than twice its near distance: with that for a near distance depth would be
+    /// finer everywhere.
+    NearTooSmall(f64),
     /// Smaller than the budget allows: still fine enough at so many texels a side.
     SmallerMap(u32),
     /// Smaller than the light asks for, to keep to the texels of all lights: at most so many a side.
@@ -90,6 +93,12 @@ impl fmt::Display for Reason {
             }
             Self::Faces(6) => f.write_str("a cube's six faces: each has something to show"),
             Self::Faces(count) => write!(f, "{count} of a cube's six faces: the others have nothing to show"),
+            Self::NearTooSmall(distance) => {
+                write!(
+                    f,
+                    "the nearest caster is {distance:.3} from the light: a near distance of that makes depth finer"
+                )
+            }
             Self::SmallerMap(size) => write!(f, "{size} texels a side are fine enough"),
             Self::OverBudget(size) => write!(f, "{size} texels a side: more would exceed those of all lights"),
             Self::AllSolid => f.write_str("second depth, no bias: all casters are solid"),
