@@ -287,19 +287,26 @@ impl PlaneList {
     }
 
     /// hull(V, l) within S, whose largest absolute coordinates are `extent`. A frustum's edges are known: planes 0 and 1,
-    /// 2 and 3, 4 and 5 face each other and all others meet. An infinite far plane is the plane at infinity, which a
+    /// 2 and 3, 4 and 5 face each other and all others meet. With oblique planes any two may meet; a pair that does not adds
+    /// a plane around the hull. An infinite far plane is the plane at infinity, which a
     /// light at a position is inside of: hull(V, l) then holds all of V moved to begin at l.
     fn hull_of_frustum(frustum: &FrustumPlanes, l: DVec4, extent: DVec3) -> Self {
         let mut hull = Self::EMPTY;
-        let planes = frustum.with_infinity().map(|plane| with_value(plane, l, extent));
+        let all = frustum.with_infinity();
+        let mut planes = [(Plane::ONE, 0.0); FrustumPlanes::MAX];
+        for (slot, plane) in planes.iter_mut().zip(all) {
+            *slot = with_value(*plane, l, extent);
+        }
         for (plane, value) in &planes[..frustum.len()] {
             if *value >= 0.0 {
                 hull.push(*plane);
             }
         }
-        let side =
-            |sign: f64| (0..).zip(&planes).fold(0, |set, (i, (_, value))| set | u64::from(sign * value > 0.0) << i);
-        hull.push_silhouettes(&planes, side(1.0), side(-1.0), |i, j| i / 2 != j / 2);
+        let side = |sign: f64| {
+            (0..).zip(&planes[..all.len()]).fold(0, |set, (i, (_, value))| set | u64::from(sign * value > 0.0) << i)
+        };
+        let oblique = all.len() > 6;
+        hull.push_silhouettes(&planes, side(1.0), side(-1.0), |i, j| oblique || i / 2 != j / 2);
         hull
     }
 

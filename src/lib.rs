@@ -108,6 +108,7 @@ mod filter;
 mod fit;
 mod focus;
 mod frame;
+mod frustum;
 mod homography;
 #[cfg(feature = "serde")]
 mod infinity;
@@ -173,5 +174,5 @@ pub use slices::{Cuts, Extent, Layout, Slice, SliceMaps, SliceUniform, Slices, S
 #[cfg(feature = "std")]
 pub use solidity::{Sheet, Solidity, SolidityReport};
 pub use splat::Splat;
-pub use view::{FrustumPlanes, Lens, View};
+pub use view::{FrustumPlanes, Lens, Tangents, View};
 pub use virtual_sample::{LEAST_INCIDENCE, Rule, SUBTEXEL, Sampled, TangentPlane};
