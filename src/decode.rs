@@ -1,6 +1,6 @@
 //! What view and projection matrices encode, in any convention.
 
-use crate::clip_space::{ClipSpace, DepthRange, YAxis};
+use crate::clip_space::{ClipSpace, YAxis};
 use crate::error::{InputError, Problem, check};
 use crate::frustum::{meet, rounding, rows};
 use crate::view::Lens;
@@ -91,13 +91,6 @@ impl Frame {
     pub(crate) fn of(clip_from_eye: &DMat4, clip: ClipSpace) -> Option<Self> {
         let rows = clip_from_eye.transpose();
         let (mut x, mut y, mut z, mut w) = (rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis);
-        // Depth from −1 to 1 and y up, whatever it was.
-        z = match clip.depth {
-            DepthRange::ZeroToOne => z * 2.0 - w,
-            DepthRange::ZeroToOneReversed => w - z * 2.0,
-            DepthRange::NegativeOneToOne => z,
-            DepthRange::NegativeOneToOneReversed => -z,
-        };
         if clip.y == YAxis::Down {
             y = -y;
         }
@@ -109,31 +102,30 @@ impl Frame {
         }
         let unit = if perspective { w.z.abs() } else { w.w };
         (x, y, z, w) = (x / unit, y / unit, z / unit, w / unit);
-        let (lens, forward_sign, centre, near, far);
+        // A plane at depth d is `value + slope · d`, for z_eye = forward_sign · d.
+        let [near_plane, far_plane] = clip.depth.ends(z, w);
+        let (lens, forward_sign, centre);
         if perspective {
-            // x_clip / w = (x.x · x_eye + x.z · z_eye) / depth, with z_eye = forward_sign · depth and depth = w.
+            // x_clip / w = (x.x · x_eye + x.z · z_eye) / depth, and depth = w.
             if x.w != 0.0 || y.w != 0.0 {
                 return None;
             }
             lens = Lens::Perspective;
             forward_sign = w.z;
             centre = DVec2::new(x.z, y.z) * forward_sign;
-            // z_clip / w = slope + z.w / depth, −1 at near and 1 at far; it may reach 1 at infinity only, or, by a
-            // rounding, not even there.
-            let slope = z.z * forward_sign;
-            near = z.w / (-1.0 - slope);
-            far = if z.w < 0.0 && slope <= 1.0 { f64::INFINITY } else { z.w / (1.0 - slope) };
         } else {
             if x.z != 0.0 || y.z != 0.0 {
                 return None;
             }
             lens = Lens::Orthographic;
-            forward_sign = if z.z < 0.0 { -1.0 } else { 1.0 };
+            forward_sign = if near_plane.z < 0.0 { -1.0 } else { 1.0 };
             centre = DVec2::new(x.w, y.w);
-            let slope = z.z * forward_sign;
-            near = (-1.0 - z.w) / slope;
-            far = (1.0 - z.w) / slope;
         }
+        let depth = |plane: DVec4| -plane.w / (plane.z * forward_sign);
+        let near = depth(near_plane);
+        // A far plane may be met at infinity only, or, by a rounding, not even there.
+        let endless = perspective && far_plane.w > 0.0 && far_plane.z * forward_sign >= 0.0;
+        let far = if endless { f64::INFINITY } else { depth(far_plane) };
         // (scale · value + centre) = ±1; a negative scale mirrors, which leaves the same frame.
         let edge = |scale: f64, centre: f64| {
             let (a, b) = ((-1.0 - centre) / scale, (1.0 - centre) / scale);

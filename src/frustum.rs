@@ -82,11 +82,11 @@ impl Rows {
         let tolerance = ROUNDINGS * rounding;
         let (of_z, of_w) = (z.normal.length(), w.normal.length());
         let (alone, both) = (tolerance * of_z, tolerance * (of_z + of_w));
-        let (near, far, near_off, far_off) = match clip.depth {
-            DepthRange::ZeroToOne => (z, w - z, alone, both),
-            DepthRange::ZeroToOneReversed => (w - z, z, both, alone),
-            DepthRange::NegativeOneToOne => (w + z, w - z, both, both),
-            DepthRange::NegativeOneToOneReversed => (w - z, w + z, both, both),
+        let [near, far] = clip.depth.ends(z, w);
+        let (near_off, far_off) = match clip.depth {
+            DepthRange::ZeroToOne => (alone, both),
+            DepthRange::ZeroToOneReversed => (both, alone),
+            DepthRange::NegativeOneToOne | DepthRange::NegativeOneToOneReversed => (both, both),
         };
         Ok(Self { x, y, z: near - far, w, near, far, near_off, far_off, tolerance, field })
     }
@@ -125,9 +125,12 @@ impl Rows {
         let (near_off, far_off) = (self.near_off * scale, self.far_off * scale);
 
         // Depth is 0 at the eye and 1 at the end of an edge's direction.
-        // The planes' sum is a multiple of w, which vanishes there, so that they have one value but for the sign.
-        let (before, lost) =
-            (-near.at(eye), self.tolerance * (near.normal.abs().dot(eye.abs()) + near.offset.abs()));
+        // The planes' sum is a multiple of w, which vanishes there, so that they have one value but for the sign: that of the
+        // one with the smaller terms has the smaller roundings.
+        let size = |plane: &Plane| plane.normal.abs().dot(eye.abs()) + plane.offset.abs();
+        let (before, size) =
+            if size(&far) < size(&near) { (far.at(eye), size(&far)) } else { (-near.at(eye), size(&near)) };
+        let lost = self.tolerance * size;
         // A near plane that rounding may have brought behind an eye far out stands next to it.
         let before = if before.abs() <= lost { most(before, lost / 256.0) } else { before };
         if before <= 0.0 {
