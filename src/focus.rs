@@ -46,6 +46,8 @@ pub struct Focus<'a> {
     pub(crate) casters: Option<Region<'a>>,
     /// Whether casters and receivers have bounds of their own.
     separate: bool,
+    /// A ball around all that several views see, where this stands for them: its middle and its radius.
+    around: Option<(DVec3, f64)>,
 }
 
 /// The names of L's planes begin here …
@@ -65,6 +67,7 @@ impl<'a> Focus<'a> {
             receivers: None,
             casters: None,
             separate: matches!(scene.bounds, Bounds::Lists { .. }),
+            around: None,
         };
         match scene.bounds {
             Bounds::Box { min, max } => {
@@ -119,6 +122,23 @@ impl<'a> Focus<'a> {
         let (mut body, mut planes) = (Polyhedron::EMPTY, [Plane::ONE; Polyhedron::MAX_PLANES]);
         self.cut_body(&mut body, form, |plane, id| planes[usize::from(id)] = plane);
         Body::new(&body, planes)
+    }
+
+    /// What stands for several of its kind, of one light and one scene: seen by one view, with all of their receivers and
+    /// casters, and a ball around all that they see.
+    pub(crate) fn standing_for(
+        &self,
+        view: View,
+        [receivers, casters]: [Option<Region<'a>>; 2],
+        around: Option<(DVec3, f64)>,
+    ) -> Self {
+        Self { view, receivers, casters, around, ..self.clone() }
+    }
+
+    /// A ball around V, or around all views that this stands for; none without an end.
+    pub(crate) fn ball(&self, image_height: u32) -> Option<(DVec3, f64)> {
+        let around = self.around.filter(|(_, radius)| radius.is_finite());
+        if self.around.is_some() { around } else { self.view.ball(image_height) }
     }
 
     /// S itself, unless casters and receivers have lists: what is known of those changes with the view.

@@ -133,6 +133,7 @@ mod scene;
 #[cfg(feature = "std")]
 mod second_depth;
 mod settings;
+mod shared;
 mod slices;
 #[cfg(feature = "std")]
 mod solidity;
@@ -170,6 +171,7 @@ pub use scene::{Aabb, ConvexScene, Scene};
 #[cfg(feature = "std")]
 pub use second_depth::{Culling, DepthTest};
 pub use settings::{Effort, Origin, Settings, Shift, Warp};
+pub use shared::{SharedFocus, Sharing};
 pub use slices::{Cuts, Extent, Layout, Slice, SliceMaps, SliceUniform, Slices, SlicesReport, Split, Tile};
 #[cfg(feature = "std")]
 pub use solidity::{Sheet, Solidity, SolidityReport};

@@ -1,10 +1,10 @@
 //! The view V: the camera's frustum, whatever convention its matrices came in.
 
 use crate::angle;
-use crate::bounds::{least, most};
+use crate::bounds::{Interval, least, most};
 use crate::clip_space::DepthRange;
 use crate::convex::{Plane, matrix_from_rows};
-use crate::error::{InputError, Problem, check};
+use crate::error::{InputError, MIN_DISTANCE, Problem, check};
 use crate::frustum::steps;
 use glam::{DMat4, DVec2, DVec3};
 
@@ -390,6 +390,22 @@ impl View {
             Lens::Orthographic => (depth * 2.0 - Plane::ONE * (far + near)) * (far - near).recip(),
         };
         [row(self.right, centre.x, half.x), row(self.up, centre.y, half.y), z, unit]
+    }
+
+    /// A view from the same eye along the same axis, of lines of sight side by side, between depths: in its image, half as
+    /// high as that range is deep, everything has the same size.
+    pub(crate) fn without_perspective(&self, depths: &Interval) -> Self {
+        let half = DVec2::splat(most(0.5 * (depths.max - depths.min), MIN_DISTANCE));
+        Self {
+            lens: Lens::Orthographic,
+            frame_min: -half,
+            frame_max: half,
+            near: depths.min,
+            far: most(depths.max, depths.min + half.x),
+            near_cut: None,
+            far_cut: None,
+            ..*self
+        }
     }
 
     /// The same view with the eye moved back along the view axis by `shift` world units: depths grow by as much, the

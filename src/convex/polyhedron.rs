@@ -109,6 +109,31 @@ impl Polyhedron {
         self.alive = 0xff;
     }
 
+    /// Takes in the vertices and edges of another body, beside its own: what there is of several bodies in one list, not to
+    /// be clipped. False, and as it was, where there is no room.
+    pub(crate) fn append(&mut self, other: &Self) -> bool {
+        let mut free = Bits(!self.alive);
+        if free.0.count_ones() < other.alive.count_ones() {
+            return false;
+        }
+        let mut slots = [NOBODY; Self::MAX_VERTICES];
+        for (old, new) in Bits(other.alive).zip(&mut free) {
+            slots[old & LAST] = new as u8;
+        }
+        for old in Bits(other.alive) {
+            let (vertex, new) = (other.vertices[old & LAST], usize::from(slots[old & LAST]));
+            let neighbours = vertex.neighbours.map(|one| slots[usize::from(one) & LAST]);
+            self.vertices[new & LAST] = Vertex { neighbours, ..vertex };
+            self.alive |= 1 << new;
+        }
+        true
+    }
+
+    /// How many vertices there are.
+    pub(crate) const fn len(&self) -> u32 {
+        self.alive.count_ones()
+    }
+
     pub(crate) fn vertices(&self) -> impl Iterator<Item = &Vertex> + Clone {
         Bits(self.alive).map(|slot| &self.vertices[slot & LAST])
     }

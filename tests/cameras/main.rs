@@ -4,7 +4,10 @@
 
 #[path = "../arbitrary/mod.rs"]
 mod arbitrary;
+#[path = "../claims/mod.rs"]
+mod claims;
 mod jitter;
 mod made;
 mod named;
 mod oblique;
+mod shared;
