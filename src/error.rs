@@ -41,8 +41,10 @@ pub enum Problem {
     AngleOutOfRange,
     /// A minimum above its maximum: a near plane beyond the far one, a box turned inside out.
     OutOfOrder,
-    /// A matrix, or axes, that take space to a plane or less: there is no image.
+    /// A matrix that takes space to a plane or less: there is no image.
     Singular,
+    /// The axes of a stored view, where they are not those that [`View`](crate::View) guarantees.
+    NotOrthonormal,
     /// A projection that is neither perspective nor orthographic: lines of sight neither meet in an eye nor run side by side
     /// with a positive w.
     NotAProjection,
@@ -73,6 +75,7 @@ impl fmt::Display for Problem {
             Self::AngleOutOfRange => "is outside the open range of its angle",
             Self::OutOfOrder => "has its minimum above its maximum",
             Self::Singular => "takes space to a plane or less",
+            Self::NotOrthonormal => "is not of unit length and at right angles to the other axes",
             Self::NotAProjection => "is neither perspective nor orthographic with a positive w",
             Self::LooksTransposed => "looks transposed: vectors are columns here, so pass its transpose",
             Self::LooksReversed => "has near and far exchanged for this matrix: try `ClipSpace::reversed`",

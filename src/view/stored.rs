@@ -27,7 +27,7 @@ impl TryFrom<View> for super::View {
         let square = [right.dot(up) - lean, up.dot(forward), forward.dot(right)];
         let is_image = lean.abs() < 1.0 && 1.0 - lean * lean > 1e-12;
         if !(is_image && units.iter().chain(&square).all(|error| error.abs() < 1e-9)) {
-            return check::fail("forward", Problem::Singular);
+            return check::fail("forward", Problem::NotOrthonormal);
         }
         for (field, cut) in [("near_cut", near_cut), ("far_cut", far_cut)] {
             if cut.is_some_and(|plane| !plane.to_row().is_finite()) {
