@@ -25,6 +25,12 @@ pub(crate) fn is_transposed_perspective(matrix: &DMat4) -> bool {
     depth_only && z.offset.abs() == 1.0 && w.normal.z != 0.0 && w.normal.z.abs() != 1.0
 }
 
+/// Whether w of a matrix from world to clip space is depth in world units, as it is in the products of most cameras.
+pub(crate) fn has_depth_in_units(clip_from_world: &DMat4) -> bool {
+    let [.., w] = rows(clip_from_world);
+    (w.normal.length_squared() - 1.0).abs() < 1e-3
+}
+
 /// The point that a matrix takes to the origin.
 pub(crate) fn origin(eye_from_world: &DMat4) -> Option<DVec3> {
     let [x, y, z, _] = rows(eye_from_world);

@@ -267,6 +267,11 @@ fn matrices_that_look_transposed() {
     let mut off_axis = clip_from_eye;
     (off_axis.z_axis.x, off_axis.z_axis.y) = (0.1, -0.2);
     let deep = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::new(0.0, 0.0, -1.0001, -1.0), DVec4::Z * -0.10001);
+    for matrix in [clip_from_eye, off_axis, deep] {
+        let combined = (matrix * eye_from_world).transpose();
+        let view = View::from_clip_from_world(combined, ClipSpace::WGPU);
+        refused(view, "clip_from_world", Problem::LooksTransposed);
+    }
     for clip in [ClipSpace::WGPU, ClipSpace::WGPU.reversed(), ClipSpace::OPENGL] {
         for matrix in [clip_from_eye, reversed, off_axis, deep] {
             let view = View::from_matrices(eye_from_world, matrix.transpose(), clip);

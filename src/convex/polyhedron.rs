@@ -72,7 +72,8 @@ pub(crate) struct Polyhedron {
 
 impl Polyhedron {
     /// The slots. A box, a light's seven planes and a hull's ten have at most `2 · 23 − 4 = 42` vertices, and the last
-    /// cut at most 22 new ones beside the 40 before it.
+    /// cut at most 22 new ones beside the 40 before it. The hull of a view with oblique planes may have more, and where a cut
+    /// then finds no room it is left out.
     pub(crate) const MAX_VERTICES: usize = 64;
     /// The planes that may be named.
     pub(crate) const MAX_PLANES: usize = 64;

@@ -55,13 +55,17 @@ impl View {
     /// The middle and half the size of a frame that holds the view's, and every other that a projection moved by less than a
     /// pixel gives it.
     fn steady_frame(&self, image_height: u32) -> (DVec2, DVec2) {
-        /// Room for what the rounding to f32 takes.
-        const ROOM: f64 = 1.0 + 1.0 / 1_048_576.0;
+        /// Room for what roundings to f32 take from the frame, and for how far the axes of a view in f32 are from right angles.
+        const ROOM: f64 = 1.0 / 1_048_576.0;
         let middle = (self.frame_min + self.frame_max) * 0.5;
         // The scale of a matrix in f32 does not change as its middle does. What is left of it here, by way of both sides,
         // does by a rounding of f64, which is not enough for the quotient of two numbers of f32 to round to another one.
         let half = ((self.frame_max - self.frame_min) * 0.5).as_vec2().as_dvec2();
-        let pixel = 2.0 * half.y / f64::from(image_height) * ROOM;
+        let axis = match self.lens {
+            Lens::Perspective => 1.0,
+            Lens::Orthographic => 0.0,
+        };
+        let pixel = 2.0 * half.y / f64::from(image_height) + ROOM * (axis + half.max_element());
         if middle.abs().max_element() <= pixel {
             return (DVec2::ZERO, half + pixel);
         }

@@ -95,7 +95,8 @@ impl View {
     /// # Errors
     ///
     /// - `"clip_from_world"` where it is not finite, takes space to a plane or less ([`Problem::Singular`]), or is
-    ///   neither perspective nor orthographic with a positive w ([`Problem::NotAProjection`]).
+    ///   neither perspective nor orthographic with a positive w ([`Problem::NotAProjection`]); or looks transposed
+    ///   ([`Problem::LooksTransposed`]).
     /// - `"clip"`, where the depth range has near and far exchanged, and does not in the reversed convention
     ///   ([`Problem::LooksReversed`]).
     /// - `"near"`, `"far"`, `"frame"` or `"eye"` where what the matrix encodes is out of order or out of range.
@@ -103,7 +104,24 @@ impl View {
         const FIELD: &str = "clip_from_world";
         let matrix = clip_from_world.into();
         decode::finite(FIELD, &matrix)?;
-        or_reversed(clip, |clip| Rows::new(&matrix, clip, frustum::rounding(&matrix), FIELD)?.view(None))
+        let of = |matrix: &DMat4| {
+            or_reversed(clip, |clip| Rows::new(matrix, clip, frustum::rounding(matrix), FIELD)?.view(None))
+        };
+        let view = of(&matrix);
+        let is_upright = |view: &Result<Self, InputError>| view.is_ok_and(|view| view.is_upright());
+        // The other way round it may be a camera all the same, of an odd shape, and its depth in odd units.
+        if !is_upright(&view) && !decode::has_depth_in_units(&matrix) {
+            let transposed = matrix.transpose();
+            if decode::has_depth_in_units(&transposed) && is_upright(&of(&transposed)) {
+                return check::fail(FIELD, Problem::LooksTransposed);
+            }
+        }
+        view
+    }
+
+    /// Whether its image is not sheared and no plane oblique.
+    fn is_upright(&self) -> bool {
+        self.lean == 0.0 && self.near_cut.is_none() && self.far_cut.is_none()
     }
 }
 
