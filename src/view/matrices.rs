@@ -36,7 +36,8 @@ impl View {
     /// - The one that looks transposed ([`Problem::LooksTransposed`]): row vectors multiply from the other side.
     /// - `"clip"`, where the depth range has near and far exchanged, and does not in the reversed convention
     ///   ([`Problem::LooksReversed`]).
-    /// - `"near"`, `"far"`, `"frame"` or `"eye"` where what the matrices encode is out of order or out of range.
+    /// - `"near"`, `"far"`, `"frame"` or `"eye"` where what the matrices encode is out of order or out of range, and `"near"`
+    ///   where an oblique near plane leaves nothing of the view ([`Problem::OutsideView`]).
     pub fn from_matrices(
         eye_from_world: impl Into<DMat4>,
         clip_from_eye: impl Into<DMat4>,
@@ -99,7 +100,8 @@ impl View {
     ///   ([`Problem::LooksTransposed`]).
     /// - `"clip"`, where the depth range has near and far exchanged, and does not in the reversed convention
     ///   ([`Problem::LooksReversed`]).
-    /// - `"near"`, `"far"`, `"frame"` or `"eye"` where what the matrix encodes is out of order or out of range.
+    /// - `"near"`, `"far"`, `"frame"` or `"eye"` where what the matrix encodes is out of order or out of range, and `"near"`
+    ///   where an oblique near plane leaves nothing of the view ([`Problem::OutsideView`]).
     pub fn from_clip_from_world(clip_from_world: impl Into<DMat4>, clip: ClipSpace) -> Result<Self, InputError> {
         const FIELD: &str = "clip_from_world";
         let matrix = clip_from_world.into();

@@ -3,7 +3,7 @@
 use crate::arbitrary::{points_of, rotation, run};
 use glam::{DMat4, DVec3, DVec4};
 use proptest::prelude::*;
-use shadowfit::{ClipSpace, Focus, Form, Light, Outcome, Plane, Scene, Settings, View, Warp};
+use shadowfit::{ClipSpace, Focus, Form, Light, Outcome, Plane, Problem, Scene, Settings, View, Warp};
 
 /// Lengyel's projection: the near plane is `plane`, in eye space, and the far plane is scaled to just hold the frustum.
 fn oblique(lens: DMat4, plane: DVec4) -> DMat4 {
@@ -130,6 +130,17 @@ fn nothing_of_h_is_lost() {
             }
         }
     });
+}
+
+/// A mirror that nothing is seen through is told by name.
+#[test]
+fn a_mirror_that_faces_away() {
+    let whole = View::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, 1.5, 0.1, 50.0).expect("a camera");
+    let mut rows = whole.clip_from_world().transpose();
+    // What lies behind the camera, by a near plane behind it.
+    rows.z_axis = DVec4::new(0.0, 0.0, 1.0, -5.0) - rows.w_axis;
+    let view = View::from_clip_from_world(rows.transpose(), ClipSpace::OPENGL);
+    assert_eq!(view.map_err(|error| (error.field, error.problem)), Err(("near", Problem::OutsideView)));
 }
 
 /// A mirror on the floor that the camera looks at from above: R begins at the mirror, and narrowing leaves it there.
