@@ -58,6 +58,21 @@ impl DepthRange {
     pub const fn is_reversed(self) -> bool {
         matches!(self, Self::ZeroToOneReversed | Self::NegativeOneToOneReversed)
     }
+
+    /// The near and the far plane, not negative inside, of a matrix by its rows z and w.
+    ///
+    /// Where a plane is z itself, that keeps all of its digits: beside w, those of a reversed far plane would be lost.
+    pub(crate) fn ends<T>(self, z: T, w: T) -> [T; 2]
+    where
+        T: Copy + core::ops::Add<Output = T> + core::ops::Sub<Output = T>,
+    {
+        match self {
+            Self::ZeroToOne => [z, w - z],
+            Self::ZeroToOneReversed => [w - z, z],
+            Self::NegativeOneToOne => [w + z, w - z],
+            Self::NegativeOneToOneReversed => [w - z, w + z],
+        }
+    }
 }
 
 impl ClipSpace {

@@ -124,7 +124,8 @@ impl Focus<'_> {
     }
 }
 
-fn fit_visible(
+/// Fits a map to what is visible, the vertices and edges of `body`, whose memory it takes.
+pub(crate) fn fit_visible(
     focus: &Focus<'_>,
     body: &mut Polyhedron,
     casters: &Region<'_>,

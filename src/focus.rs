@@ -47,6 +47,8 @@ pub struct Focus<'a> {
     pub(crate) casters: Option<Region<'a>>,
     /// The list of casters, where casters and receivers have bounds of their own.
     pub(crate) caster_list: Option<Boxes<'a>>,
+    /// A ball around all that several views see, where this stands for them: its middle and its radius.
+    around: Option<(DVec3, f64)>,
 }
 
 /// The names of the planes of V, or of a window, begin here. Those of L follow those of the region, and those of a hull those of
@@ -65,6 +67,7 @@ impl<'a> Focus<'a> {
             receivers: None,
             casters: None,
             caster_list: None,
+            around: None,
         };
         match scene.bounds {
             Bounds::Nothing => {}
@@ -135,6 +138,23 @@ impl<'a> Focus<'a> {
         let (mut body, mut planes) = (Polyhedron::EMPTY, [Plane::ONE; Polyhedron::MAX_PLANES]);
         self.cut_body(&mut body, form, |plane, id| planes[usize::from(id)] = plane);
         Body::new(&body, planes)
+    }
+
+    /// What stands for several of its kind, of one light and one scene: seen by one view, with all of their receivers and
+    /// casters, and a ball around all that they see.
+    pub(crate) fn standing_for(
+        &self,
+        view: View,
+        [receivers, casters]: [Option<Region<'a>>; 2],
+        around: Option<(DVec3, f64)>,
+    ) -> Self {
+        Self { view, receivers, casters, around, ..self.clone() }
+    }
+
+    /// A ball around V, or around all views that this stands for; none without an end.
+    pub(crate) fn ball(&self, image_height: u32) -> Option<(DVec3, f64)> {
+        let around = self.around.filter(|(_, radius)| radius.is_finite());
+        if self.around.is_some() { around } else { self.view.ball(image_height) }
     }
 
     /// S itself, unless casters and receivers have lists: what is known of those changes with the view.
@@ -312,19 +332,26 @@ impl PlaneList {
     }
 
     /// hull(V, l) within S, whose largest absolute coordinates are `extent`. A frustum's edges are known: planes 0 and 1,
-    /// 2 and 3, 4 and 5 face each other and all others meet. An infinite far plane is the plane at infinity, which a
+    /// 2 and 3, 4 and 5 face each other and all others meet. With oblique planes any two may meet; a pair that does not adds
+    /// a plane around the hull. An infinite far plane is the plane at infinity, which a
     /// light at a position is inside of: hull(V, l) then holds all of V moved to begin at l.
     fn hull_of_frustum(frustum: &FrustumPlanes, l: DVec4, extent: DVec3) -> Self {
         let mut hull = Self::EMPTY;
-        let planes = frustum.with_infinity().map(|plane| with_value(plane, l, extent));
+        let all = frustum.with_infinity();
+        let mut planes = [(Plane::ONE, 0.0); FrustumPlanes::MAX];
+        for (slot, plane) in planes.iter_mut().zip(all) {
+            *slot = with_value(*plane, l, extent);
+        }
         for (plane, value) in &planes[..frustum.len()] {
             if *value >= 0.0 {
                 hull.push(*plane);
             }
         }
-        let side =
-            |sign: f64| (0..).zip(&planes).fold(0, |set, (i, (_, value))| set | u64::from(sign * value > 0.0) << i);
-        hull.push_silhouettes(&planes, side(1.0), side(-1.0), |i, j| i / 2 != j / 2);
+        let side = |sign: f64| {
+            (0..).zip(&planes[..all.len()]).fold(0, |set, (i, (_, value))| set | u64::from(sign * value > 0.0) << i)
+        };
+        let oblique = all.len() > 6;
+        hull.push_silhouettes(&planes, side(1.0), side(-1.0), |i, j| oblique || i / 2 != j / 2);
         hull
     }
 

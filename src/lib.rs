@@ -127,6 +127,7 @@ mod filter;
 mod fit;
 mod focus;
 mod frame;
+mod frustum;
 mod homography;
 #[cfg(feature = "serde")]
 mod infinity;
@@ -154,6 +155,7 @@ mod scene;
 #[cfg(feature = "std")]
 mod second_depth;
 mod settings;
+mod shared;
 mod slices;
 #[cfg(feature = "std")]
 mod solidity;
@@ -193,10 +195,11 @@ pub use scene::{Aabb, Bounding, ConvexScene, DAabb, Scene};
 #[cfg(feature = "std")]
 pub use second_depth::{Culling, DepthTest};
 pub use settings::{Effort, Origin, Settings, Shift, Warp};
+pub use shared::{SharedFocus, Sharing};
 pub use slices::{Cuts, Extent, Layout, Slice, SliceMaps, SliceUniform, Slices, SlicesReport, Split, Tile};
 #[cfg(feature = "std")]
 pub use solidity::{Sheet, Solidity, SolidityReport};
 pub use splat::Splat;
 pub use surrounded::Surrounded;
-pub use view::{FrustumPlanes, Lens, View};
+pub use view::{FrustumPlanes, Lens, Tangents, View};
 pub use virtual_sample::{LEAST_INCIDENCE, Rule, SUBTEXEL, Sampled, TangentPlane};

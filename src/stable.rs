@@ -75,8 +75,7 @@ impl Stable {
         let (u_axis, v_axis) = frame::of_light(axis);
         let across = |point: DVec3| DVec2::new(u_axis.dot(point), v_axis.dot(point));
         let of_view = focus
-            .view()
-            .ball()
+            .ball(settings.image_height())
             .map(|(centre, radius)| Rectangle { centre: across(centre), half: DVec2::splat(radius) });
         let of_scene = focus.scene().map(|scene| {
             let (mut body, mut u, mut v) = (Polyhedron::EMPTY, Interval::EMPTY, Interval::EMPTY);

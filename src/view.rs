@@ -1,13 +1,23 @@
 //! The view V: the camera's frustum, whatever convention its matrices came in.
 
 use crate::angle;
-use crate::bounds::{least, most};
-use crate::clip_space::{ClipSpace, DepthRange};
+use crate::bounds::{Interval, least, most};
+use crate::clip_space::DepthRange;
 use crate::convex::{Plane, matrix_from_rows};
-use crate::decode::{EyeAxes, Frame};
-use crate::error::{Hint, InputError, Problem, check};
-use crate::numbers::{IntoMatrix, vector};
+use crate::error::{Hint, InputError, MIN_DISTANCE, Problem, check};
+use crate::frustum::steps;
+use crate::numbers::vector;
 use glam::{DMat4, DVec2, DVec3};
+
+mod ball;
+mod matrices;
+mod planes;
+#[cfg(feature = "serde")]
+mod stored;
+mod tangents;
+
+pub use planes::FrustumPlanes;
+pub use tangents::Tangents;
 
 /// Whether lines of sight meet in the eye or run side by side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -26,22 +36,31 @@ pub enum Lens {
 ///
 /// # Guarantees
 ///
-/// `right`, `up` and `forward` are orthonormal (right- or left-handed); the frame is not empty; `near < far`; a
-/// perspective view has `near > 0` and may have `far = ∞`.
+/// `right`, `up` and `forward` are unit length, `right` and `up` at right angles to `forward`, and, unless the image is
+/// sheared, to each other (right- or left-handed); the frame is not empty; `near < far`; a perspective view has
+/// `near > 0` and may have `far = ∞`.
+///
+/// A near or far plane may be oblique, as that of a mirror's camera is. It cuts V further ([`View::planes`]); `near` and
+/// `far` are then the depths between which V lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "stored::View"))]
 pub struct View {
-    eye: DVec3,
-    right: DVec3,
-    up: DVec3,
-    forward: DVec3,
-    lens: Lens,
+    pub(crate) eye: DVec3,
+    pub(crate) right: DVec3,
+    pub(crate) up: DVec3,
+    pub(crate) forward: DVec3,
+    /// The cosine of the angle between `right` and `up`, 0 in an image that is not sheared.
+    pub(crate) lean: f64,
+    pub(crate) lens: Lens,
     /// The frame's lower left and upper right corners: slopes of a perspective lens, offsets of an orthographic one.
-    frame_min: DVec2,
-    frame_max: DVec2,
-    near: f64,
+    pub(crate) frame_min: DVec2,
+    pub(crate) frame_max: DVec2,
+    pub(crate) near: f64,
     #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
-    far: f64,
+    pub(crate) far: f64,
+    /// Where a plane is oblique, what cuts V beside the plane across the view.
+    pub(crate) near_cut: Option<Plane>,
+    pub(crate) far_cut: Option<Plane>,
 }
 
 impl View {
@@ -73,7 +92,7 @@ impl View {
         let slope = check::distance("fov_y", sine / cosine)?;
         let slopes = DVec2::new(check::distance("aspect", slope * check::distance("aspect", aspect)?)?, slope);
         let axes = Axes::looking(vector(forward), vector(up))?;
-        Self::checked(vector(eye), axes, Lens::Perspective, -slopes, slopes, near, far)
+        Self::framed(vector(eye), axes, Lens::Perspective, [-slopes, slopes], [near, far])
     }
 
     /// An orthographic camera with a symmetric frame.
@@ -97,81 +116,105 @@ impl View {
         let height = check::distance("half_height", half_height)?;
         let half = DVec2::new(check::distance("aspect", height * check::distance("aspect", aspect)?)?, height);
         let axes = Axes::looking(vector(forward), vector(up))?;
-        Self::checked(vector(eye), axes, Lens::Orthographic, -half, half, near, far)
+        Self::framed(vector(eye), axes, Lens::Orthographic, [-half, half], [near, far])
     }
 
-    /// A camera from the two matrices a renderer has: world → eye and eye → clip, for column vectors (`clip_from_eye ·
-    /// eye_from_world · x`).
+    /// A perspective camera by the tangents of its four half angles, as headset runtimes give them: `near` and `far` stay
+    /// what they are, where a matrix keeps no more of them than its numbers have room for.
     ///
-    /// `eye_from_world` may mirror and may scale uniformly. `clip_from_eye` may be perspective or orthographic, off
-    /// axis, with the eye looking along either end of its z axis, with an infinite far plane, and in any
-    /// [`ClipSpace`]; its texture origin plays no part.
+    /// `forward` and `up` are those of the pose, of any length, in world space: with a unit quaternion, the images of −z
+    /// and y in OpenXR and OpenVR. `near` and `far` are depths along `forward` in world units; `far` may be infinite.
+    ///
+    /// ```
+    /// use shadowfit::{Tangents, View};
+    ///
+    /// // An `XrFovf` of the left eye.
+    /// let tangents = Tangents::from_angles(-0.94, 0.77, -0.88, 0.83)?;
+    /// let left = View::from_tangents((-0.032, 1.7, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), tangents, 0.05, 500.0)?;
+    /// assert_eq!((left.near(), left.far()), (0.05, 500.0));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
-    /// Names the matrix that is not finite, not rigid, or no projection; `"near"` or `"far"` when the depth range that
-    /// `clip_from_eye` encodes is not positive, which is also what a matrix read in the wrong convention looks like.
-    pub fn from_matrices<A, B>(
-        eye_from_world: impl IntoMatrix<A>,
-        clip_from_eye: impl IntoMatrix<B>,
-        clip: ClipSpace,
-    ) -> Result<Self, InputError> {
-        let (eye_from_world, clip_from_eye) = (eye_from_world.into_matrix(), clip_from_eye.into_matrix());
-        let axes = EyeAxes::of(&eye_from_world)?;
-        let frame = Frame::of(&clip_from_eye, clip)?;
-        let forward = axes.backward * frame.forward_sign;
-        let scale = axes.world_per_eye;
-        let (unit, depth) = match frame.lens {
-            Lens::Perspective => (1.0, scale),
-            Lens::Orthographic => (scale, scale),
-        };
-        let axes_found = Axes { right: axes.right, up: axes.up, forward };
-        let (near, far) = (frame.near * depth, frame.far * depth);
-        Self::checked(axes.eye, axes_found, frame.lens, frame.min * unit, frame.max * unit, near, far)
-    }
-
-    /// The same view between two depths, which must lie within its own: what a cascade covers, or what a read-back of
-    /// the depth buffer found to be visible (PSM §6).
-    ///
-    /// # Errors
-    ///
-    /// Names `"near"` or `"far"` when it is not finite, lies outside the view's own depth range, or they are out of
-    /// order. `far` may be infinite where the view's own is.
-    pub fn narrowed(&self, near: f64, far: f64) -> Result<Self, InputError> {
-        if near < self.near {
-            return check::fail("near", Problem::TooSmall);
-        }
-        if far > self.far {
-            return check::fail("far", Problem::TooLarge);
-        }
-        let axes = Axes { right: self.right, up: self.up, forward: self.forward };
-        Self::checked(self.eye, axes, self.lens, self.frame_min, self.frame_max, near, far)
-    }
-
-    fn checked(
-        eye: DVec3,
-        axes: Axes,
-        lens: Lens,
-        frame_min: DVec2,
-        frame_max: DVec2,
+    /// Names the field that is not finite, without direction, parallel to the other direction, not positive, or out of
+    /// order; `"frame"` where left is not less than right or bottom than top.
+    pub fn from_tangents<E: Into<f64>, F: Into<f64>, U: Into<f64>>(
+        eye: impl Into<[E; 3]>,
+        forward: impl Into<[F; 3]>,
+        up: impl Into<[U; 3]>,
+        tangents: Tangents,
         near: f64,
         far: f64,
     ) -> Result<Self, InputError> {
-        let eye = check::point("eye", eye)?;
+        let Tangents { left, right, bottom, top } = tangents;
+        let frame = [DVec2::new(left, bottom), DVec2::new(right, top)];
+        let axes = Axes::looking(vector(forward), vector(up))?;
+        Self::framed(vector(eye), axes, Lens::Perspective, frame, [near, far])
+    }
+
+    /// The part of the view between two depths: what a cascade covers, or what a read-back of the depth buffer found to be
+    /// visible (PSM §6). Depths beyond the view's own are drawn in to those.
+    ///
+    /// ```
+    /// use shadowfit::View;
+    ///
+    /// let view = View::perspective((0.0, 1.7, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.5, 80.0)?;
+    /// let narrowed = view.narrowed(0.1, 20.0)?;
+    /// assert_eq!((narrowed.near(), narrowed.far()), (0.5, 20.0));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Names `"near"` or `"far"` when it is NaN, `"far"` when it is no more than `near`, and the one that lies beyond the
+    /// other end of the view when the range misses it ([`Problem::OutsideView`]).
+    pub fn narrowed(&self, near: f64, far: f64) -> Result<Self, InputError> {
+        for (field, depth) in [("near", near), ("far", far)] {
+            if depth.is_nan() {
+                return Err(InputError::new(field, Problem::NotFinite).got(depth));
+            }
+        }
+        check::above("far", far, "near", near)?;
+        if near >= self.far {
+            return Err(InputError::new("near", Problem::OutsideView).got(near));
+        }
+        if far <= self.near {
+            return Err(InputError::new("far", Problem::OutsideView).got(far));
+        }
+        Self { near: most(near, self.near), far: least(far, self.far), ..*self }.checked()
+    }
+
+    fn framed(
+        eye: DVec3,
+        axes: Axes,
+        lens: Lens,
+        [frame_min, frame_max]: [DVec2; 2],
+        [near, far]: [f64; 2],
+    ) -> Result<Self, InputError> {
+        let Axes { right, up, forward } = axes;
+        let (lean, near_cut, far_cut) = (0.0, None, None);
+        Self { eye, right, up, forward, lean, lens, frame_min, frame_max, near, far, near_cut, far_cut }.checked()
+    }
+
+    /// The view, if its numbers are what one has.
+    pub(crate) fn checked(self) -> Result<Self, InputError> {
+        let eye = check::point("eye", self.eye)?;
         let corner = |corner: DVec2| check::point("frame", corner.extend(0.0)).map(DVec3::truncate);
-        let (frame_min, frame_max) = (corner(frame_min)?, corner(frame_max)?);
+        let (frame_min, frame_max) = (corner(self.frame_min)?, corner(self.frame_max)?);
         if !(frame_min.x < frame_max.x && frame_min.y < frame_max.y) {
             return check::fail("frame", Problem::OutOfOrder);
         }
         let size = frame_max - frame_min;
         check::distance("frame", size.x).and(check::distance("frame", size.y))?;
-        let (near, far) = match lens {
-            Lens::Perspective => (check::distance("near", near)?, check::distance_or_infinity("far", far)?),
-            Lens::Orthographic => (check::coordinate("near", near)?, check::coordinate("far", far)?),
+        let (near, far) = match self.lens {
+            Lens::Perspective => {
+                (check::distance("near", self.near)?, check::distance_or_infinity("far", self.far)?)
+            }
+            Lens::Orthographic => (check::coordinate("near", self.near)?, check::coordinate("far", self.far)?),
         };
         check::above("far", far, "near", near)?;
-        let Axes { right, up, forward } = axes;
-        Ok(Self { eye, right, up, forward, lens, frame_min, frame_max, near, far })
+        Ok(Self { eye, frame_min, frame_max, near, far, ..self })
     }
 
     /// Where the camera is, in world space.
@@ -180,14 +223,15 @@ impl View {
         self.eye
     }
 
-    /// The unit axis to the right of the image, in world space. [`Self::perspective`] and [`Self::orthographic`] take
-    /// the world to be right-handed; in a left-handed one theirs points to the left, which changes no result.
+    /// The unit axis to the right of the image, in world space, at right angles to its left and right edges. The
+    /// constructors that take directions take the world to be right-handed; in a left-handed one theirs points to the left,
+    /// which changes no result.
     #[must_use]
     pub const fn right(&self) -> DVec3 {
         self.right
     }
 
-    /// The unit axis to the top of the image, in world space.
+    /// The unit axis to the top of the image, in world space, at right angles to its lower and upper edges.
     #[must_use]
     pub const fn up(&self) -> DVec3 {
         self.up
@@ -228,7 +272,8 @@ impl View {
     /// [`Self::narrowed`], widened by a few steps of the buffer's format.
     ///
     /// `stored` runs from 0 to 1, as depth buffers do on every API, and `range` is that of the camera's clip space; values
-    /// outside are taken for the end they are beyond, NaN for 0. What is cleared to the far end and never drawn to has the depth of
+    /// outside are taken for the end they are beyond, NaN for 0. With an oblique plane depth is no function of what is
+    /// stored alone, and this is that of a buffer drawn without one. What is cleared to the far end and never drawn to has the depth of
     /// the far plane, infinite where that is.
     ///
     /// ```
@@ -265,12 +310,17 @@ impl View {
 
     /// What the middle of the image shows at a depth.
     pub(crate) fn centre_at(&self, depth: f64) -> DVec3 {
-        let centre = (self.frame_min + self.frame_max) * 0.5;
-        let centre = match self.lens {
-            Lens::Perspective => centre * depth,
-            Lens::Orthographic => centre,
+        self.at((self.frame_min + self.frame_max) * 0.5, depth)
+    }
+
+    /// What a point of the frame shows at a depth.
+    fn at(&self, point: DVec2, depth: f64) -> DVec3 {
+        let point = match self.lens {
+            Lens::Perspective => point * depth,
+            Lens::Orthographic => point,
         };
-        self.eye + self.forward * depth + self.right * centre.x + self.up * centre.y
+        let [right, up] = self.steps();
+        self.eye + self.forward * depth + right * point.x + up * point.y
     }
 
     /// Half the height, in world units, of what the image shows at a depth.
@@ -288,32 +338,13 @@ impl View {
         2.0 * self.half_height(self.depth(point)) / f64::from(image_height)
     }
 
-    /// The planes of V in world space, inside ≥ 0: left, right, bottom, top, near and, unless it is infinite, far.
-    #[must_use]
-    pub fn planes(&self) -> FrustumPlanes {
-        let (depth, one) = (self.depth_row(), self.frame_unit());
-        let (x, y) = (Plane::through(self.right, self.eye), Plane::through(self.up, self.eye));
-        let near = depth - Plane::ONE * self.near;
-        // An infinite one is the plane at infinity. Any multiple would do: this one scales with the scene as others do.
-        let far = if self.far.is_finite() { Plane::ONE * self.far - depth } else { Plane::ONE * self.near };
-        FrustumPlanes {
-            planes: [
-                x - one * self.frame_min.x,
-                one * self.frame_max.x - x,
-                y - one * self.frame_min.y,
-                one * self.frame_max.y - y,
-                near,
-                far,
-            ],
-            len: if self.far.is_finite() { 6 } else { 5 },
-        }
-    }
-
-    /// The corners of V in world space: near then far, each left-bottom, right-bottom, left-top, right-top; `None` when
-    /// the far plane is infinite.
+    /// The corners, in world space, of the frustum between the depths [`Self::near`] and [`Self::far`]: near then far, each
+    /// left-bottom, right-bottom, left-top, right-top; `None` when the far plane is infinite. They are V's own unless
+    /// a plane is oblique, which cuts V further.
     #[must_use]
     pub fn corners(&self) -> Option<[DVec3; 8]> {
         self.far.is_finite().then(|| {
+            let [right, up] = self.steps();
             core::array::from_fn(|corner| {
                 let depth = if corner < 4 { self.near } else { self.far };
                 let unit = match self.lens {
@@ -322,68 +353,21 @@ impl View {
                 };
                 let x = if corner & 1 == 0 { self.frame_min.x } else { self.frame_max.x };
                 let y = if corner & 2 == 0 { self.frame_min.y } else { self.frame_max.y };
-                self.eye + self.forward * depth + self.right * (x * unit) + self.up * (y * unit)
+                self.eye + self.forward * depth + right * (x * unit) + up * (y * unit)
             })
         })
     }
 
-    /// The middle and the radius of a ball around V, unless its far plane is infinite. The radius comes of the frame, near and
-    /// far alone, so that it has the same bits wherever the camera is.
-    ///
-    /// It is the smallest with its middle on the frame's own axis, and so the smallest of all where that is the view's. With m
-    /// the middle of a perspective frame, h half its size, s = |h|, q = h·|m| and A = 1 + |m|², the farthest corners at depth
-    /// d of the ball's middle at depth z lie at
-    ///
-    /// ```text
-    ///     A (d − z)² + 2 q d |d − z| + s² d²
-    /// ```
-    ///
-    /// squared, which is the same for near and far where a linear equation in z says.
-    pub(crate) fn ball(&self) -> Option<(DVec3, f64)> {
-        if self.far.is_infinite() {
-            return None;
-        }
-        let (near, far) = (self.near, self.far);
-        let middle = (self.frame_min + self.frame_max) * 0.5;
-        let half = (self.frame_max - self.frame_min) * 0.5;
-        let (depth, squared) = match self.lens {
-            Lens::Perspective => {
-                let (s2, q, a) = (half.length_squared(), half.dot(middle.abs()), 1.0 + middle.length_squared());
-                let (sum, difference) = (far + near, far - near);
-                let balance = (a + s2) * difference * sum + 2.0 * q * (far * far + near * near);
-                let depth = least(balance / (2.0 * (a * difference + q * sum)), far);
-                let corner = |d: f64| {
-                    let along = (d - depth).abs();
-                    a * along * along + 2.0 * q * d * along + s2 * d * d
-                };
-                (depth, most(corner(near), corner(far)))
-            }
-            Lens::Orthographic => {
-                let along = 0.5 * (far - near);
-                (0.5 * (near + far), along * along + half.length_squared())
-            }
-        };
-        Some((self.centre_at(depth), DVec2::splat(squared).sqrt().x))
+    /// The steps that go along one side of the frame by 1, in world space.
+    fn steps(&self) -> [DVec3; 2] {
+        steps(self.right, self.up, self.lean)
     }
 
-    /// The camera's 4×4, world → clip, with x, y and z in [−1, 1] whatever convention the view came in.
+    /// The camera's 4×4, world → clip, with x, y and z in [−1, 1] whatever convention the view came in; z runs from the depth
+    /// [`Self::near`] to [`Self::far`], whether or not a plane is oblique.
     #[must_use]
     pub fn clip_from_world(&self) -> DMat4 {
         matrix_from_rows(self.rows(self.near, self.far))
-    }
-
-    /// Depth before the eye as a covector.
-    pub(crate) fn depth_row(&self) -> Plane {
-        Plane::through(self.forward, self.eye)
-    }
-
-    /// What the frame's numbers are multiples of: depth for slopes, 1 for offsets. It is also the row C₃ of the
-    /// camera's matrix.
-    fn frame_unit(&self) -> Plane {
-        match self.lens {
-            Lens::Perspective => self.depth_row(),
-            Lens::Orthographic => Plane::ONE,
-        }
     }
 
     /// The rows C₀ C₁ C₂ C₃ of the camera's matrix (DESIGN section 2) with z running from −1 at depth `near` to 1 at
@@ -406,31 +390,26 @@ impl View {
         [row(self.right, centre.x, half.x), row(self.up, centre.y, half.y), z, unit]
     }
 
+    /// A view from the same eye along the same axis, of lines of sight side by side, between depths: in its image, half as
+    /// high as that range is deep, everything has the same size.
+    pub(crate) fn without_perspective(&self, depths: &Interval) -> Self {
+        let half = DVec2::splat(most(0.5 * (depths.max - depths.min), MIN_DISTANCE));
+        Self {
+            lens: Lens::Orthographic,
+            frame_min: -half,
+            frame_max: half,
+            near: depths.min,
+            far: most(depths.max, depths.min + half.x),
+            near_cut: None,
+            far_cut: None,
+            ..*self
+        }
+    }
+
     /// The same view with the eye moved back along the view axis by `shift` world units: depths grow by as much, the
     /// frame keeps its slopes.
     pub(crate) fn moved_back(&self, shift: f64) -> Self {
         Self { eye: self.eye - self.forward * shift, ..*self }
-    }
-}
-
-/// Up to six planes, as [`View::planes`] returns them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrustumPlanes {
-    planes: [Plane; 6],
-    len: usize,
-}
-
-impl FrustumPlanes {
-    /// All six, with the plane at infinity for an infinite far plane.
-    pub(crate) const fn with_infinity(&self) -> &[Plane; 6] {
-        &self.planes
-    }
-}
-
-impl core::ops::Deref for FrustumPlanes {
-    type Target = [Plane];
-    fn deref(&self) -> &[Plane] {
-        &self.planes[..self.len]
     }
 }
 
@@ -452,38 +431,5 @@ impl Axes {
         }
         let right = right.normalize();
         Ok(Self { right, up: right.cross(forward), forward })
-    }
-}
-
-/// A view as it is stored: the same numbers, checked again when they are read.
-#[cfg(feature = "serde")]
-mod stored {
-    use super::{Axes, DVec2, DVec3, InputError, Lens, Problem, check};
-
-    #[derive(serde::Deserialize)]
-    pub(super) struct View {
-        eye: DVec3,
-        right: DVec3,
-        up: DVec3,
-        forward: DVec3,
-        lens: Lens,
-        frame_min: DVec2,
-        frame_max: DVec2,
-        near: f64,
-        #[serde(with = "crate::infinity")]
-        far: f64,
-    }
-
-    impl TryFrom<View> for super::View {
-        type Error = InputError;
-        fn try_from(view: View) -> Result<Self, InputError> {
-            let View { eye, right, up, forward, lens, frame_min, frame_max, near, far } = view;
-            let units = [right, up, forward].map(|axis| axis.length_squared() - 1.0);
-            let square = [right.dot(up), up.dot(forward), forward.dot(right)];
-            if !units.iter().chain(&square).all(|error| error.abs() < 1e-9) {
-                return check::fail("forward", Problem::NotRigid);
-            }
-            Self::checked(eye, Axes { right, up, forward }, lens, frame_min, frame_max, near, far)
-        }
     }
 }

@@ -4,7 +4,7 @@ use allocation_counter::measure;
 use shadowfit::glam::{DVec3, Vec3, Vec4};
 use shadowfit::{
     Aabb, ClipSpace, ConvexScene, Cuts, DepthFormat, Effort, Focus, Form, Layout, Light, Origin, Outcome, Scene,
-    Settings, Shift, Slices, Split, View, Warp, classify, fit,
+    Settings, SharedFocus, Shift, Slices, Split, View, Warp, classify, fit,
 };
 use std::hint::black_box;
 
@@ -93,7 +93,8 @@ fn constructors() {
     let boxes = boxes();
     let (eye, min, max) = (DVec3::new(2.0, 3.0, 12.0), DVec3::splat(-9.0), DVec3::splat(9.0));
     let count = allocations(|| {
-        black_box(View::perspective(eye, -eye, DVec3::Y, 1.0, 1.6, 0.1, 80.0)).unwrap();
+        let view = black_box(View::perspective(eye, -eye, DVec3::Y, 1.0, 1.6, 0.1, 80.0)).unwrap();
+        black_box(View::from_clip_from_world(view.clip_from_world(), ClipSpace::OPENGL)).unwrap();
         black_box(Light::spot(eye, -eye, 0.7, 0.1, 40.0)).unwrap();
         black_box(Scene::new(&boxes, &boxes)).unwrap();
         black_box(ConvexScene::around([eye, min, max])).unwrap();
@@ -119,6 +120,22 @@ fn fits() {
         }
     });
     assert!(maps > 0 && empty > 0 && surrounded > 0, "{maps}, {empty}, {surrounded}");
+}
+
+#[test]
+fn fits_of_several_views() {
+    let views = views();
+    for light in lights() {
+        let scene = Scene::from_box((-20.0, 0.0, -20.0), (20.0, 8.0, 20.0)).unwrap();
+        for warp in [Warp::Uniform, Warp::Stable, Warp::default()] {
+            let settings = Settings::default().with_warp(warp);
+            let count = allocations(|| {
+                let shared = SharedFocus::new(&views, &light, &scene).unwrap();
+                black_box((shared.fit(&settings), shared.sharing(&settings), shared.bodies(Form::Tight).count()));
+            });
+            assert_eq!(count, 0, "{light:?} {warp:?}");
+        }
+    }
 }
 
 #[test]

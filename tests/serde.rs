@@ -51,6 +51,13 @@ fn views() {
     clip_from_eye.z_axis.x = 0.3;
     let mirror = DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0)) * DMat4::from_rotation_x(0.4);
     comes_back(View::from_matrices(mirror, clip_from_eye, ClipSpace::WGPU.reversed()).unwrap());
+    // Sheared, and with oblique planes.
+    let mut rows = view(500.0).clip_from_world().transpose();
+    rows.x_axis += rows.y_axis * 0.25;
+    rows.z_axis += rows.y_axis * 0.125;
+    let leaning = View::from_clip_from_world(rows.transpose(), ClipSpace::OPENGL).unwrap();
+    assert!(leaning.planes().len() > 6 && leaning.right().dot(leaning.up()).abs() > 0.01);
+    comes_back(leaning);
 }
 
 /// A rotation that came out of a matrix is orthonormal enough to be read again.
@@ -77,12 +84,13 @@ fn tampered_views() {
     tampered(&view, "/near", json!(501.0), "far (500) must be greater than near (501)");
     tampered(&view, "/far", json!(1e300), "far must lie in [2⁻⁴⁰, 2⁴⁰]");
     tampered(&view, "/eye/0", json!(1e300), "eye.x must lie in [−2⁴⁰, 2⁴⁰]");
-    tampered(&view, "/forward/0", json!(0.5), "forward is more than rotation");
-    tampered(&view, "/up", json!([0.0, 0.0, 0.0]), "forward is more than rotation");
+    tampered(&view, "/forward/0", json!(0.5), "forward is not of unit length");
+    tampered(&view, "/up", json!([0.0, 0.0, 0.0]), "forward is not of unit length");
     // A ten-thousandth too long: far beyond rounding, and within what glam calls normalized.
     let long = (view.right() * 1.00005).to_array();
-    tampered(&view, "/right", json!(long), "forward is more than rotation");
+    tampered(&view, "/right", json!(long), "forward is not of unit length");
     tampered(&view, "/frame_min/0", json!(9.0), "frame has its minimum above its maximum");
+    tampered(&view, "/lean", json!(0.5), "forward is not of unit length");
     tampered(&view, "/lens", json!("Fisheye"), "unknown variant");
     tampered(&view, "/near", Value::Null, "null");
     // Only a perspective view sees infinitely far.

@@ -72,8 +72,8 @@ pub(crate) struct Polyhedron {
 
 impl Polyhedron {
     /// The slots. A box, a light's seven planes and a hull's ten have at most `2 · 23 − 4 = 42` vertices, and the last
-    /// cut at most 22 new ones beside the 40 before it. Scenes of many cuts and lights within planes have more: where there is
-    /// no room, a plane does not cut.
+    /// cut at most 22 new ones beside the 40 before it. Scenes of many cuts, lights within planes and hulls of views with oblique
+    /// planes may have more: where there is no room, a plane does not cut.
     pub(crate) const MAX_VERTICES: usize = 64;
     /// The planes that may be named.
     pub(crate) const MAX_PLANES: usize = 64;
@@ -108,6 +108,31 @@ impl Polyhedron {
             };
         }
         self.alive = 0xff;
+    }
+
+    /// Takes in the vertices and edges of another body, beside its own: what there is of several bodies in one list, not to
+    /// be clipped. False, and as it was, where there is no room.
+    pub(crate) fn append(&mut self, other: &Self) -> bool {
+        let mut free = Bits(!self.alive);
+        if free.0.count_ones() < other.alive.count_ones() {
+            return false;
+        }
+        let mut slots = [NOBODY; Self::MAX_VERTICES];
+        for (old, new) in Bits(other.alive).zip(&mut free) {
+            slots[old & LAST] = new as u8;
+        }
+        for old in Bits(other.alive) {
+            let (vertex, new) = (other.vertices[old & LAST], usize::from(slots[old & LAST]));
+            let neighbours = vertex.neighbours.map(|one| slots[usize::from(one) & LAST]);
+            self.vertices[new & LAST] = Vertex { neighbours, ..vertex };
+            self.alive |= 1 << new;
+        }
+        true
+    }
+
+    /// How many vertices there are.
+    pub(crate) const fn len(&self) -> u32 {
+        self.alive.count_ones()
     }
 
     pub(crate) fn vertices(&self) -> impl Iterator<Item = &Vertex> + Clone {

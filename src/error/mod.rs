@@ -153,10 +153,19 @@ pub enum Problem {
     AngleOutOfRange,
     /// A minimum above its maximum: a near plane beyond the far one, a box turned inside out.
     OutOfOrder,
-    /// A view matrix that is more than a rotation, a reflection, a uniform scale and a translation.
-    NotRigid,
-    /// A projection that is neither perspective nor orthographic, or whose near plane is oblique.
+    /// A matrix that takes space to a plane or less: there is no image.
+    Singular,
+    /// The axes of a stored view, where they are not those that [`View`](crate::View) guarantees.
+    NotOrthonormal,
+    /// A projection that is neither perspective nor orthographic: lines of sight neither meet in an eye nor run side by side
+    /// with a positive w.
     NotAProjection,
+    /// A matrix that is made for row vectors: its transpose would be one for column vectors.
+    LooksTransposed,
+    /// A depth range with near and far exchanged, which the convention with reversed depth would put right.
+    LooksReversed,
+    /// A range of depths that misses the view, or a near plane that leaves nothing of it.
+    OutsideView,
     /// A light that shines neither all around nor into a half space.
     NotAllAround,
     /// A light that shines into no cone.
@@ -179,10 +188,12 @@ impl fmt::Display for Problem {
             Self::Parallel => "is parallel to the direction it must differ from",
             Self::AngleOutOfRange => "is outside the open range of its angle",
             Self::OutOfOrder => "has its minimum above its maximum",
-            Self::NotRigid => "is more than rotation, reflection, uniform scale and translation",
-            Self::NotAProjection => {
-                "is no perspective or orthographic projection with its near plane facing the eye"
-            }
+            Self::Singular => "takes space to a plane or less",
+            Self::NotOrthonormal => "is not of unit length and at right angles to the other axes",
+            Self::NotAProjection => "is neither perspective nor orthographic with a positive w",
+            Self::LooksTransposed => "looks transposed: vectors are columns here, so pass its transpose",
+            Self::LooksReversed => "has near and far exchanged for this matrix: try `ClipSpace::reversed`",
+            Self::OutsideView => "lies outside of the view's own depths",
             Self::NotASpot => "is no spot",
             Self::NotAllAround => "shines neither all around nor into a half space",
             Self::Empty => "is empty",

@@ -55,6 +55,11 @@ fn of_view(view: &mut ViewParams, change: &mut impl FnMut(&mut f64)) {
             change(scale);
             frame.slopes.iter_mut().chain([&mut frame.near]).chain(&mut frame.far).for_each(change);
         }
+        ViewParams::Combined { pose, frame, near_plane, .. } => {
+            of_pose(pose);
+            let frame = frame.slopes.iter_mut().chain([&mut frame.near]).chain(&mut frame.far);
+            frame.chain(near_plane.iter_mut().flatten()).for_each(change);
+        }
     }
 }
 

@@ -33,6 +33,15 @@ pub(crate) enum ViewParams {
         frame: Frame,
         clip: ClipSpace,
     },
+    /// A perspective view by its one matrix. A near plane, normal and offset in eye space, takes the place of the frame's own
+    /// where it is oblique, as a mirror's does.
+    Combined {
+        pose: Pose,
+        mirrored: bool,
+        frame: Frame,
+        near_plane: Option<[f64; 4]>,
+        clip: ClipSpace,
+    },
 }
 
 /// Where a camera is and which way it looks.
@@ -63,6 +72,13 @@ impl ViewParams {
             Self::Matrices { pose, mirrored, scale, frame, clip } => {
                 View::from_matrices(pose.eye_from_world(mirrored, scale), frame.clip_from_eye(scale, clip), clip)
             }
+            Self::Combined { pose, mirrored, frame, near_plane, clip } => {
+                let mut clip_from_eye = frame.clip_from_eye(1.0, clip);
+                if let Some(plane) = near_plane {
+                    clip_from_eye = oblique(clip_from_eye, plane.into(), clip.depth);
+                }
+                View::from_clip_from_world(clip_from_eye * pose.eye_from_world(mirrored, 1.0), clip)
+            }
         }
     }
 
@@ -82,11 +98,14 @@ impl ViewParams {
                 near: by.length(near),
                 far: by.length(far),
             },
-            Self::Matrices { pose, mirrored, scale, frame, clip } => Self::Matrices {
+            Self::Matrices { pose, mirrored, scale, frame, clip } => {
+                Self::Matrices { pose: pose.moved(by), mirrored, scale, frame: frame.moved(by), clip }
+            }
+            Self::Combined { pose, mirrored, frame, near_plane, clip } => Self::Combined {
                 pose: pose.moved(by),
                 mirrored,
-                scale,
-                frame: Frame { near: by.length(frame.near), far: frame.far.map(|far| by.length(far)), ..frame },
+                frame: frame.moved(by),
+                near_plane: near_plane.map(|[x, y, z, offset]| [x, y, z, by.length(offset)]),
                 clip,
             },
         }
@@ -110,7 +129,36 @@ impl Pose {
     }
 }
 
+/// A projection with another near plane, in eye space, and the far plane as near as it can be and still hold the corner of
+/// the frustum that lies farthest beyond (Lengyel 2005).
+fn oblique(clip_from_eye: DMat4, plane: DVec4, depth: DepthRange) -> DMat4 {
+    let mut rows = clip_from_eye.transpose();
+    let sign = |value: f64| if value < 0.0 { -1.0 } else { 1.0 };
+    let far = match depth {
+        DepthRange::ZeroToOne | DepthRange::NegativeOneToOne => 1.0,
+        DepthRange::ZeroToOneReversed => 0.0,
+        DepthRange::NegativeOneToOneReversed => -1.0,
+    };
+    let from_clip = clip_from_eye.inverse();
+    let [x, y] = [from_clip.x_axis, from_clip.y_axis].map(|axis| sign(plane.truncate().dot(axis.truncate())));
+    let corner = from_clip * DVec4::new(x, y, far, 1.0);
+    let w = rows.w_axis;
+    // In units of w, from 0 at the near plane to 1 at that corner.
+    let part = plane * (w.dot(corner) / plane.dot(corner));
+    rows.z_axis = match depth {
+        DepthRange::ZeroToOne => part,
+        DepthRange::ZeroToOneReversed => w - part,
+        DepthRange::NegativeOneToOne => part * 2.0 - w,
+        DepthRange::NegativeOneToOneReversed => w - part * 2.0,
+    };
+    rows.transpose()
+}
+
 impl Frame {
+    fn moved(&self, by: &Similarity) -> Self {
+        Self { near: by.length(self.near), far: self.far.map(|far| by.length(far)), ..*self }
+    }
+
     /// Eye to clip, for eye coordinates in which a world unit is `scale` long.
     fn clip_from_eye(&self, scale: f64, clip: ClipSpace) -> DMat4 {
         let [left, right, bottom, top] = self.slopes;
@@ -141,6 +189,7 @@ pub(crate) fn view() -> impl Strategy<Value = ViewParams> {
         1 => extreme_view(),
         1 => orthographic_view(),
         2 => off_axis_view(),
+        1 => combined_view(),
         2 => lattice_view(),
     ]
 }
@@ -203,6 +252,25 @@ fn off_axis_view() -> impl Strategy<Value = ViewParams> {
     (any_pose(5.0), any::<bool>(), prop::sample::select(vec![1.0, 100.0, 1e-3]), frame, clip_space()).prop_map(
         |(pose, mirrored, scale, frame, clip)| ViewParams::Matrices { pose, mirrored, scale, frame, clip },
     )
+}
+
+/// Views by one matrix in every convention, every other one with an oblique near plane that leaves something of it.
+fn combined_view() -> impl Strategy<Value = ViewParams> {
+    let plane = prop::option::of((-1.5..1.5, -1.5..1.5, magnitude(1e-3, 1.0)));
+    (off_axis_view(), plane).prop_map(|(view, plane)| match view {
+        ViewParams::Matrices { pose, mirrored, frame, clip, .. } => {
+            let near_plane = plane.map(|(x, y, part)| {
+                let [left, right, bottom, top] = frame.slopes;
+                // How fast the line of sight that runs away from the plane fastest does.
+                let fastest = |x: f64, y: f64| 1.0 + (x * left).max(x * right) + (y * bottom).max(y * top);
+                let (x, y) = if fastest(x, y) > 0.1 { (x, y) } else { (0.0, 0.0) };
+                let distance = 0.5 * part * frame.far.map_or(5.0, |far| far.min(5.0)) * fastest(x, y);
+                [x, y, -1.0, -distance]
+            });
+            ViewParams::Combined { pose, mirrored, frame, near_plane, clip }
+        }
+        other => other,
+    })
 }
 
 /// Small integers: the planes of such a view have exact coordinates, and sides at 45°.

@@ -22,7 +22,7 @@ pub(crate) fn anything() -> impl Strategy<Value = Case> {
             }
         ),
         (
-            pose,
+            pose.clone(),
             any::<bool>(),
             number(),
             [number(), number(), number(), number()],
@@ -35,6 +35,17 @@ pub(crate) fn anything() -> impl Strategy<Value = Case> {
                 scale,
                 frame: Frame { slopes, near, far },
                 clip,
+            }),
+        (
+            pose,
+            any::<bool>(),
+            prop::option::of([number(), number(), number(), number()]),
+            [number(), number(), number(), number()],
+            (number(), maybe()),
+            clip_space()
+        )
+            .prop_map(|(pose, mirrored, near_plane, slopes, (near, far), clip)| {
+                ViewParams::Combined { pose, mirrored, frame: Frame { slopes, near, far }, near_plane, clip }
             }),
     ];
     let light =

@@ -4,7 +4,7 @@ use glam::{DMat4, DVec3, Vec3, Vec4};
 use shadowfit::{
     Aabb, ClipSpace, ConvexScene, CubeFace, Cuts, DAabb, DepthFormat, DepthRange, Filter, Focus, Form, InputError,
     Layout, Light, Map, Offset, Origin, Outcome, Paraboloid, Plane, Scene, Settings, Shift, Slices, Split,
-    TangentPlane, TextureOrigin, View, Warp, YAxis,
+    TangentPlane, Tangents, TextureOrigin, View, Warp, YAxis,
 };
 
 use super::results::exercise;
@@ -88,7 +88,7 @@ impl Bits<'_> {
     }
 
     fn view(&mut self) -> Result<View, InputError> {
-        let view = match self.below(3) {
+        let view = match self.below(5) {
             0 => {
                 let [eye, forward, up] = [(); 3].map(|()| self.triple());
                 View::perspective(eye, forward, up, self.number(), self.number(), self.number(), self.number())
@@ -97,7 +97,17 @@ impl Bits<'_> {
                 let [eye, forward, up] = [(); 3].map(|()| self.triple());
                 View::orthographic(eye, forward, up, self.number(), self.number(), self.number(), self.number())
             }
-            _ => {
+            2 => {
+                let [eye, forward, up] = [(); 3].map(|()| self.triple());
+                let [left, right, bottom, top] = [(); 4].map(|()| self.number());
+                let tangents = if self.below(2) == 0 {
+                    Tangents { left, right, bottom, top }
+                } else {
+                    Tangents::from_angles(left, right, bottom, top)?
+                };
+                View::from_tangents(eye, forward, up, tangents, self.number(), self.number())
+            }
+            which => {
                 // A rigid motion and a lens, with some entries changed: any sixteen numbers are hardly ever either.
                 let mut of = |mut matrix: [f64; 16]| {
                     for (entry, number) in self.list(12, |bits| (bits.below(16), bits.number())) {
@@ -108,7 +118,11 @@ impl Bits<'_> {
                 let eye_from_world = of(DMat4::IDENTITY.to_cols_array());
                 let lens = [1.5, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, -1.01, -1.0, 0.0, 0.0, -0.101, 0.0];
                 let clip_from_eye = of(lens);
-                View::from_matrices(eye_from_world, clip_from_eye, self.clip())
+                if which == 3 {
+                    View::from_matrices(eye_from_world, clip_from_eye, self.clip())
+                } else {
+                    View::from_clip_from_world(clip_from_eye * eye_from_world, self.clip())
+                }
             }
         }?;
         if self.below(4) == 0 { view.narrowed(self.number(), self.number()) } else { Ok(view) }

@@ -5,6 +5,7 @@
 //! - `results`: nothing that the crate says of a fit is NaN.
 //! - `rays`, `scaling`: where a map puts things in f64, and what powers of two do to it.
 //! - `single_precision`: what f32 makes of a map.
+//! - `shared`: one map for several views.
 //! - `paraboloid`, `slices`, `virtual_samples`, `town` and `planner`: the maps, tests and plans of those names.
 //! - `targets`: all claims of a fuzz target, from its bytes.
 
@@ -19,6 +20,7 @@ pub(crate) mod planner;
 pub(crate) mod rays;
 pub(crate) mod results;
 pub(crate) mod scaling;
+pub(crate) mod shared;
 pub(crate) mod single_precision;
 pub(crate) mod slices;
 pub(crate) mod targets;

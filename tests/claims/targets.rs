@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use super::{paraboloid, rays, results, scaling, single_precision, virtual_samples};
+use super::{paraboloid, rays, results, scaling, shared, single_precision, virtual_samples};
 use crate::arbitrary::{ShownOnPanic, Together, case_with, settings};
 
 /// Raw bits through every constructor.
@@ -22,6 +22,7 @@ pub(crate) fn fit(bytes: &[u8]) {
     single_precision::holds_what_it_must(&case, &settings, seed);
     single_precision::is_as_quiet_as_it_says(&case, &settings, seed);
     scaling::changes_no_bit(&case, &settings, (seed % 41) as i32 - 20);
+    shared::lose_nothing(&case, &settings, seed);
 }
 
 /// All that is claimed of paraboloid maps.

@@ -11,7 +11,8 @@ use shadowfit::{ClipSpace, Focus, Light, Map, Origin, Settings, View, Warp, fit}
 use std::cell::Cell;
 
 /// Texels have the same sides to the bit, axes the same direction to the bit, and the grids of two views lie on one another.
-/// The window is as wide as the ball around V, the border, a texel, 1/128, and what rounding a side to 13 bits adds.
+/// The window is as wide as the ball around V, the border, a texel, 1/128, and what rounding a side to 13 bits adds. The ball
+/// has room for a frame moved by a pixel across and one up, whose diagonal is 2√2 of the image's half height over its height.
 ///
 /// A row's offset is −2k/N, made of the exact product of k and a texel's side by two more roundings, of 1/half and of the
 /// product with that: with ε = 2⁻⁵² it is off by ε of itself at most, in texels N/2 times that. There are two maps, and
@@ -32,7 +33,8 @@ fn cameras_that_move_and_turn_keep_extent_and_grid() {
         let size = arbitrary::sides(&settings);
         let inner = size - 2.0 * f64::from(settings.border()) - 1.0;
         let room = (1.0 + 1.0 / 128.0) * (1.0 + 1.0 / 4096.0) * (1.0 + 1e-12);
-        let largest = 2.0 * lens.radius() * room / inner * size;
+        let jittered = 1.0 + 8_f64.sqrt() / f64::from(settings.image_height());
+        let largest = 2.0 * lens.radius() * jittered * room / inner * size;
         let window = DVec2::new(one.window().width, one.window().height);
         assert!(window.cmple(largest).all(), "{window} of at most {largest}");
         assert_eq!(sides(&one), sides(&other));
