@@ -251,9 +251,9 @@ pub(crate) fn allows_for_rounding(case: &Case, settings: &Settings, seed: u64) {
     let sides = sides(settings);
     let off = |point| {
         let exact = depth_of(settings.clip(), map.shadow_from_world() * DVec3::extend(point, 1.0));
-        let (_, of_w) = rounding(&map, &together.view, point);
+        let (_, of_w) = rounding(&map, point);
         let is_counted = together.is_served(point) && of_w <= 0.5 && exact.abs() <= 1.0;
-        let found = depth_of(settings.clip(), in_f32(&map, &together.view, point).as_dvec4());
+        let found = depth_of(settings.clip(), in_f32(&map, point).as_dvec4());
         is_counted.then_some(found - exact)
     };
     for corners in points_of(&focus.visible(), seed).windows(3) {
