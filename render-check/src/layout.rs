@@ -48,7 +48,7 @@ impl Layout {
         bias.context("there is no such filter")
     }
 
-    /// The same for the verdict, of a map that was fitted to a view with its eye there.
+    /// The same for the verdict.
     #[must_use]
     pub fn projection(&self) -> Box<dyn Projection> {
         match self {
