@@ -350,9 +350,10 @@ mod tests {
     fn no_argument_is_enough() {
         let args = Args::parse_from(["render-check"]);
         assert!(args.command.is_none());
-        let CheckArgs { view, map, narrow, close_up, frames } = args.check;
+        let CheckArgs { view, map, narrow, at, close_up, frames } = args.check;
         assert!(
             !narrow
+                && at.is_none()
                 && close_up.is_none()
                 && view.lights.is_empty()
                 && view.eye.is_none()
