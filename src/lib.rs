@@ -162,6 +162,7 @@ mod solidity;
 mod splat;
 mod stable;
 mod surrounded;
+mod tolerance;
 mod view;
 mod virtual_sample;
 mod warp;
@@ -201,5 +202,6 @@ pub use slices::{Cuts, Extent, Layout, Slice, SliceMaps, SliceUniform, Slices, S
 pub use solidity::{Sheet, Solidity, SolidityReport};
 pub use splat::Splat;
 pub use surrounded::Surrounded;
+pub use tolerance::{ComparisonTolerance, SUBTEXEL};
 pub use view::{FrustumPlanes, Lens, Tangents, View};
-pub use virtual_sample::{LEAST_INCIDENCE, Rule, SUBTEXEL, Sampled, TangentPlane};
+pub use virtual_sample::{LEAST_INCIDENCE, Rule, Sampled, TangentPlane};

@@ -2,17 +2,13 @@
 
 use crate::convex::Plane;
 use crate::map::Map;
-use crate::quality::DepthFormat;
+use crate::tolerance::ComparisonTolerance;
 use glam::{DVec2, DVec3};
 
 /// The least sine of the angle between the light and a plane for which the plane's slope is taken as it is: 1/256, a
 /// quarter of a degree. A matte surface at that angle has less than a step of 8 bits of the light's brightness, so that
 /// no shadow shows on it; and the slope, which has a pole where the light sees the plane from its edge, stays bounded.
 pub const LEAST_INCIDENCE: f64 = 1.0 / 256.0;
-
-/// How far rasterisers move a vertex in a map, in texels: to a grid of a 256th, by half of a step, and as much again for
-/// the interpolation of depth across a triangle.
-pub const SUBTEXEL: f64 = 1.0 / 256.0;
 
 /// The tangent plane of a receiver, as a map sees it.
 ///
@@ -52,7 +48,7 @@ pub const SUBTEXEL: f64 = 1.0 / 256.0;
 ///
 /// They are as exact as what a rasteriser stores. Rasterisers set up the slopes of depth of a triangle in f32, with errors
 /// that grow with its length and over its width in texels: of strips like kerbs, 0.7 texels wide and a thousand long, the
-/// stored depth was found off by what it changes in a tenth of a texel, 25 times what [`SUBTEXEL`] allows, and up to 0.18 %
+/// stored depth was found off by what it changes in a tenth of a texel, 25 times what [`SUBTEXEL`](crate::SUBTEXEL) allows, and up to 0.18 %
 /// of a street shadowed itself (`render-check street --size 512 --filter virtual2`). Cut into 40 pieces along their length,
 /// the same strips did so nowhere. No tolerance is widened for them, as it would be for all: such triangles are better
 /// cut. Averaged over 3 × 3 texels the errors did not show.
@@ -60,6 +56,7 @@ pub const SUBTEXEL: f64 = 1.0 / 256.0;
 pub struct TangentPlane {
     place: DVec2,
     depth: f64,
+    w: f64,
     slopes: DVec2,
     /// Texels of the map across and down.
     sides: DVec2,
@@ -104,6 +101,7 @@ impl TangentPlane {
         (at > 0.0 && slopes.is_finite()).then(|| Self {
             place: DVec2::new(coordinate(&u), coordinate(&v)),
             depth: coordinate(&z),
+            w: at,
             slopes,
             sides: map.settings().sides(),
             reversed: clip.depth.is_reversed(),
@@ -134,38 +132,36 @@ impl TangentPlane {
         self.depth + self.slopes.dot(place - self.place)
     }
 
-    /// What a comparison must allow for besides `constant`, see [`Map::comparison_tolerance`]: what the rasteriser's grid
-    /// makes of the plane's slope.
+    /// What a comparison allows for at the point.
     #[must_use]
-    pub fn tolerance(&self, constant: f64) -> f64 {
+    pub fn tolerance(&self, tolerance: &ComparisonTolerance) -> f64 {
         // In texels across.
         let slopes = self.slopes.abs() * (self.sides.x / self.sides);
-        constant + SUBTEXEL / self.sides.x * slopes.element_sum()
+        tolerance.at(self.w) + tolerance.slope / self.sides.x * slopes.element_sum()
     }
 
     /// Tests the 2 × 2 texels around the point, blended by its distance from their centres, as a comparison sampler does.
     ///
-    /// `constant` is the tolerance, see [`Map::comparison_tolerance`]; `stored` is the depth that the map holds for a
-    /// texel, by column and row in texture space, from 0 to one less than the map's width and height.
+    /// `tolerance` is [`Map::comparison_tolerance`] for a reach of 1; `stored` is the depth that the map holds for a texel, by column and row in texture space, from 0 to one less than the map's width and height.
     #[must_use]
-    pub fn blended(&self, constant: f64, stored: impl Fn(u32, u32) -> f64) -> Sampled {
+    pub fn blended(&self, tolerance: &ComparisonTolerance, stored: impl Fn(u32, u32) -> f64) -> Sampled {
         let corner = self.place * self.sides - 0.5;
         let part = corner - corner.floor();
         let weight = |x: u32, y: u32| {
             let of = |offset: u32, part: f64| if offset == 0 { 1.0 - part } else { part };
             of(x, part.x) * of(y, part.y)
         };
-        self.sampled(corner.floor(), 2, weight, constant, stored)
+        self.sampled(corner.floor(), 2, weight, tolerance, stored)
     }
 
     /// Tests the `taps` × `taps` texels around the point, each counted alike: percentage-closer filtering (Reeves, Salesin
-    /// & Cook 1987). One tap is the nearest texel, at which the virtual sample always decides. None counts as one.
+    /// & Cook 1987). One tap is the nearest texel, at which the virtual sample always decides. None counts as one. `tolerance` is that for a reach of half of the taps.
     #[must_use]
-    pub fn mean(&self, taps: u32, constant: f64, stored: impl Fn(u32, u32) -> f64) -> Sampled {
+    pub fn mean(&self, taps: u32, tolerance: &ComparisonTolerance, stored: impl Fn(u32, u32) -> f64) -> Sampled {
         let taps = taps.max(1);
         // The middle of an odd square is a texel, that of an even one a corner between texels.
         let first = (self.place * self.sides - 0.5 * f64::from(taps - 1)).floor();
-        self.sampled(first, taps, |_, _| 1.0 / (f64::from(taps) * f64::from(taps)), constant, stored)
+        self.sampled(first, taps, |_, _| 1.0 / (f64::from(taps) * f64::from(taps)), tolerance, stored)
     }
 
     /// The three rules of Wang & Molnar's Fig. 10, with one comparison, ≤:
@@ -183,10 +179,10 @@ impl TangentPlane {
         first: DVec2,
         taps: u32,
         weight: impl Fn(u32, u32) -> f64,
-        constant: f64,
+        tolerance: &ComparisonTolerance,
         stored: impl Fn(u32, u32) -> f64,
     ) -> Sampled {
-        let tolerance = self.tolerance(constant);
+        let tolerance = self.tolerance(tolerance);
         let away = if self.reversed { -1.0 } else { 1.0 };
         let passes = |depth: f64, stored: f64| away * (depth.clamp(0.0, 1.0) - stored) <= tolerance;
         let (mut point_passes, mut count, mut share) = (0, 0, 0.0);
@@ -204,16 +200,6 @@ impl TangentPlane {
             (true, 0) => Sampled { share: 0.0, rule: Rule::NonePass },
             _ => Sampled { share: share.min(1.0), rule: Rule::VirtualSamples },
         }
-    }
-}
-
-impl Map {
-    /// How much of the depth range a comparison must allow for so that a plane does not shadow itself by rounding: half a
-    /// step of the format for the stored depth, and what f32 can be off by ([`DepthSpan::rounding`](crate::DepthSpan)) for
-    /// it and for the point's. It is what remains of a bias where virtual samples do the rest.
-    #[must_use]
-    pub fn comparison_tolerance(&self, format: DepthFormat) -> f64 {
-        0.5 * format.step(1.0) + 2.0 * self.depth().rounding
     }
 }
 

@@ -5,14 +5,14 @@ mod claims;
 
 use arbitrary::{Numbers, case, run, settings};
 use claims::virtual_samples::{
-    depths_are_exact, direction, in_a_shader, projected, rules_hold_where_planes_are_seen, rules_only_cut_short,
-    shaders_find_them,
+    allows_for_rounding, depths_are_exact, direction, in_a_shader, projected, rules_hold_where_planes_are_seen,
+    rules_only_cut_short, shaders_find_them,
 };
 use glam::{DVec2, DVec3, Vec3};
 use proptest::prelude::*;
 use shadowfit::{
-    ClipSpace, DepthFormat, LEAST_INCIDENCE, Light, Map, Rule, SUBTEXEL, Scene, Settings, TangentPlane, View, Warp,
-    fit,
+    ClipSpace, ComparisonTolerance, DepthFormat, LEAST_INCIDENCE, Light, Map, Rule, SUBTEXEL, Scene, Settings,
+    TangentPlane, View, Warp, fit,
 };
 
 #[test]
@@ -26,6 +26,13 @@ fn depths_on_planes_are_exact() {
 fn shaders_find_them_to_what_f32_can_tell() {
     run(3000, &(case(), settings(), any::<u64>()), |(case, settings, seed)| {
         shaders_find_them(&case, &settings, seed);
+    });
+}
+
+#[test]
+fn tolerances_cover_what_f32_can_tell() {
+    run(6000, &(case(), settings(), any::<u64>()), |(case, settings, seed)| {
+        allows_for_rounding(&case, &settings, seed);
     });
 }
 
@@ -124,10 +131,12 @@ fn a_plane_never_shadows_itself_without_any_bias() {
             for format in [None, Some(DepthFormat::Unorm16), Some(DepthFormat::Unorm24)] {
                 let stored = stored_plane(&map, plane, format);
                 // Exact depths need nothing but what f64 rounds; stored ones the tolerance of their format.
-                let constant = format.map_or(1e-12, |format| map.comparison_tolerance(format));
-                let tests = [plane.blended(constant, &stored)]
-                    .into_iter()
-                    .chain([1, 2, 3, 5, 8].map(|taps| plane.mean(taps, constant, &stored)));
+                let tolerance = |reach| match format {
+                    Some(format) => map.comparison_tolerance(format, reach).expect("a reach"),
+                    None => ComparisonTolerance::constant(1e-12),
+                };
+                let mean = |taps: u32| plane.mean(taps, &tolerance(0.5 * f64::from(taps)), &stored);
+                let tests = [plane.blended(&tolerance(1.0), &stored)].into_iter().chain([1, 2, 3, 5, 8].map(mean));
                 for sampled in tests {
                     assert!((sampled.share - 1.0).abs() < 1e-12, "{plane:?}: {sampled:?} in {format:?}");
                     assert_ne!(sampled.rule, Rule::NonePass);
@@ -144,7 +153,8 @@ fn a_thin_sheet_passes_by_at_most() {
     // A plane across the light: one depth everywhere, the same number in the map and in the test.
     let point = DVec3::new(0.0, 0.0, -4.0);
     let sheet = TangentPlane::new(map, point, DVec3::new(0.4, 0.3, 0.5)).expect("in the map");
-    for sampled in [sheet.blended(0.0, |_, _| sheet.depth()), sheet.mean(3, 0.0, |_, _| sheet.depth())] {
+    let none = ComparisonTolerance::constant(0.0);
+    for sampled in [sheet.blended(&none, |_, _| sheet.depth()), sheet.mean(3, &none, |_, _| sheet.depth())] {
         assert_eq!((sampled.share, sampled.rule), (1.0, Rule::AllPass), "{:?}", sheet.slopes());
     }
 }
@@ -156,10 +166,10 @@ fn what_lies_before_the_plane_at_every_texel_shadows_it() {
         for plane in on_ground(&map) {
             let own = stored_plane(&map, plane, None);
             // By more than the tolerance, but by far less than the plane's depth changes from texel to texel.
-            let before = away * (2.0 * plane.tolerance(1e-9) + 1e-12);
-            for sampled in
-                [plane.blended(1e-9, |x, y| own(x, y) - before), plane.mean(3, 1e-9, |x, y| own(x, y) - before)]
-            {
+            let tolerance = ComparisonTolerance::constant(1e-9);
+            let before = away * (2.0 * plane.tolerance(&tolerance) + 1e-12);
+            let stored = |x, y| own(x, y) - before;
+            for sampled in [plane.blended(&tolerance, stored), plane.mean(3, &tolerance, stored)] {
                 assert_eq!(sampled.share, 0.0, "{plane:?}");
                 assert_ne!(sampled.rule, Rule::AllPass);
             }

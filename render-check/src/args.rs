@@ -90,7 +90,7 @@ pub struct ViewArgs {
     pub far: Option<f64>,
 
     /// The distance from a lamp at which its shadow map begins, in world units: inside any lampshade, but the smaller it
-    /// is, the coarser is depth far from the lamp [default: a thousandth of the scene's diagonal]
+    /// is, the coarser is depth far from the lamp [default: half of the way to the nearest surface, and at least a thousandth of the scene's diagonal]
     #[arg(long, value_name = "DISTANCE", value_parser = parse_finite_distance)]
     pub lamp_near: Option<f64>,
 
@@ -211,6 +211,11 @@ pub struct CheckArgs {
     /// camera's near and far planes
     #[arg(long)]
     pub narrow: bool,
+
+    /// Move the scene, the camera and the lights by so much, to positions that f32 has there, and draw maps, casters and
+    /// receivers in world space, not relative to the eye
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
+    pub at: Option<DVec3>,
 
     /// A square of the picture to look at closely: the pixel in its middle, and pixels along its side
     #[arg(long, value_name = "X,Y,SIDE")]
@@ -345,9 +350,10 @@ mod tests {
     fn no_argument_is_enough() {
         let args = Args::parse_from(["render-check"]);
         assert!(args.command.is_none());
-        let CheckArgs { view, map, narrow, close_up, frames } = args.check;
+        let CheckArgs { view, map, narrow, at, close_up, frames } = args.check;
         assert!(
             !narrow
+                && at.is_none()
                 && close_up.is_none()
                 && view.lights.is_empty()
                 && view.eye.is_none()

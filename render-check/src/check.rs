@@ -7,17 +7,20 @@ use std::time::Instant;
 use anyhow::{Result, ensure};
 use image::RgbImage;
 use serde::Serialize;
+use shadowfit::glam::DVec3;
 
-use crate::args::CheckArgs;
+use crate::args::{CheckArgs, ViewArgs};
 use crate::check_table::CheckTable;
 use crate::fitting::NoMap;
 use crate::gpu::Gpu;
+use crate::light::LightSpec;
 use crate::opening::{choose_lights, open, output_directory, place_camera, say, sort};
 use crate::picture::{CloseUp, Lighting, aliasing_map, difference, save, shaded, side_by_side, stored_map, tinted};
 use crate::progress::bar;
 use crate::report::{self, CameraReport, RunReport};
 use crate::run::{MapRun, Options, run};
-use crate::scene::{LeftOut, Mesh};
+use crate::scene::damage::in_single_precision;
+use crate::scene::{LeftOut, LoadedScene, Mesh};
 use crate::stage::{Stage, StageLight};
 
 /// All that is known after a check.
@@ -39,23 +42,44 @@ pub struct CheckReport {
     pub runs: Vec<RunReport>,
 }
 
+/// What is asked for where it is to be: all positions moved, and in f32, as world space has them there.
+fn moved(args: &CheckArgs, scene: LoadedScene) -> (ViewArgs, LoadedScene) {
+    let mut asked = args.view.clone();
+    let Some(offset) = args.at else { return (asked, scene) };
+    let position = |position: DVec3| (position + offset).as_vec3().as_dvec3();
+    asked.eye = asked.eye.map(position);
+    asked.target = asked.target.map(position);
+    asked.lights.iter_mut().for_each(|light| *light = light.with_position(position));
+    (asked, in_single_precision(&scene.moved(1.0, offset)))
+}
+
+/// Where a lamp's map begins, and whether that costs precision for nothing; nothing of a sun.
+fn near_words(stage: &Stage<'_>, spec: &LightSpec) -> String {
+    let Some(position) = spec.position() else { return String::new() };
+    let (near, nearest) = (stage.lamp_near(spec), stage.tracer.distance_to(position));
+    let costs =
+        if near < 0.25 * nearest { "; a larger --lamp-near loses nothing and makes depth finer" } else { "" };
+    format!("its map begins {near:.3} from it, the nearest surface is {nearest:.3} from it{costs}\n")
+}
+
 /// Checks a scene.
 ///
 /// # Errors
 ///
 /// When nothing can be checked, with a message that says what to do; and when a caster is missing from a map.
 pub fn check(args: &CheckArgs) -> Result<()> {
-    let scene = open(&args.view)?;
-    let out = output_directory(&args.view, &scene)?;
+    let (asked, scene) = moved(args, open(&args.view)?);
+    let out = output_directory(&asked, &scene)?;
     let tracer = sort(&scene.mesh)?;
-    let (_, view) = place_camera(&args.view, &scene, &tracer)?;
+    let (_, view) = place_camera(&asked, &scene, &tracer)?;
     let gpu = Gpu::new()?;
     say(&format!("drawn by {}", gpu.name()));
 
     let size = [args.view.width, args.view.height];
     let stage = Stage::new(&gpu, &tracer, &view, size)?.with_lamp_near(args.view.lamp_near);
+    let stage = if args.at.is_some() { stage.in_world_space()? } else { stage };
     let stage = if args.narrow { narrowed(stage)? } else { stage };
-    let lights = choose_lights(&args.view, &scene);
+    let lights = choose_lights(&asked, &scene);
     let options = args.map.options(args.frames);
     let bar = bar("checking", lights.len() * options.len());
     let mut runs = Vec::new();
@@ -77,7 +101,8 @@ pub fn check(args: &CheckArgs) -> Result<()> {
         let class = shadowfit::classify(&view, &light.light).kind;
         let [compared, shadowed] = [light.truth.compared(), light.truth.shadowed()];
         let title = format!("\nlight {}: {spec}, {class}; {compared} pixels compared, {shadowed} in shadow", i + 1);
-        bar.suspend(|| say(&format!("{title}\n{table}")));
+        let near = near_words(&stage, &spec);
+        bar.suspend(|| say(&format!("{title}\n{near}{table}")));
     }
     bar.finish_and_clear();
 

@@ -29,10 +29,12 @@ pub fn draw(args: &DrawArgs) -> Result<()> {
     let tracer = sort(&scene.mesh)?;
     let (_, view) = place_camera(&args.view, &scene, &tracer)?;
 
-    let lamp_near = args.view.lamp_near.unwrap_or_else(|| lamp_near(&scene.mesh));
     let fits = choose_lights(&args.view, &scene)
         .into_iter()
-        .map(|light| fit_light(light, &view, &scene.mesh, lamp_near, &settings, techniques))
+        .map(|light| {
+            let near = args.view.lamp_near.unwrap_or_else(|| lamp_near(&tracer, &light));
+            fit_light(light, &view, &scene.mesh, near, &settings, techniques)
+        })
         .collect::<Result<Vec<_>>>()?;
     say(&table(&fits, tracer.bounds()).to_string());
     for (i, fit) in fits.iter().enumerate() {

@@ -13,9 +13,14 @@ use shadowfit::{
 use crate::light::LightSpec;
 use crate::scene::Mesh;
 use crate::technique::Technique;
+use crate::trace::Tracer;
 
-/// A lamp's shadow map begins this far from it, as a part of the diagonal of the scene's box: inside any lampshade.
-const LAMP_NEAR: f64 = 1e-3;
+/// A lamp's shadow map begins at least this far from it where nobody says, as a part of the diagonal of the scene's box:
+/// inside any lampshade, and beyond the bulb.
+const LEAST_LAMP_NEAR: f64 = 1e-3;
+
+/// Where nothing is so near, it begins at this part of the distance to the nearest surface.
+const OF_NEAREST: f64 = 0.5;
 
 /// How long fits are timed at most.
 const TIMING_BUDGET: Duration = Duration::from_millis(100);
@@ -93,11 +98,19 @@ pub fn scene_box(mesh: &Mesh) -> Result<Scene<'static>> {
     Scene::from_box(min, max).context("the scene's extent cannot be used")
 }
 
-/// The distance from a lamp at which its map begins where nobody says, in world units.
+/// The least distance from a lamp at which its map begins where nobody says, in world units.
 #[must_use]
-pub fn lamp_near(mesh: &Mesh) -> f64 {
+pub fn least_lamp_near(mesh: &Mesh) -> f64 {
     let (min, max) = mesh.bounds();
-    LAMP_NEAR * (max - min).length()
+    LEAST_LAMP_NEAR * (max - min).length()
+}
+
+/// The distance from a lamp at which its map begins where nobody says, in world units: what the surfaces around it allow. A
+/// sun, which has none, has the least.
+#[must_use]
+pub fn lamp_near(tracer: &Tracer<'_>, spec: &LightSpec) -> f64 {
+    let nearest = spec.position().map_or(0.0, |position| tracer.distance_to(position));
+    least_lamp_near(tracer.mesh()).max(OF_NEAREST * nearest.min(spec.range()))
 }
 
 /// Fits one light with a single map, by each of some techniques.
@@ -174,7 +187,7 @@ mod tests {
         let settings = Settings::new(256, 600).expect("sound sizes");
         for &spec in scene.lights.iter().filter(|light| light.kind() != "spot") {
             let light_fit =
-                fit_light(spec, &view, &scene.mesh, lamp_near(&scene.mesh), &settings, &Technique::WARPS)
+                fit_light(spec, &view, &scene.mesh, lamp_near(&tracer, &spec), &settings, &Technique::WARPS)
                     .expect("a sound light");
             assert!(!light_fit.body.is_empty());
             for fitted in &light_fit.maps {

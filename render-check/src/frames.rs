@@ -74,7 +74,7 @@ mod tests {
         let tracer = Tracer::new(&scene.mesh).expect("it has triangles");
         let (view, _) = choose_view(&scene.camera.expect("it has one"), 1.6, &tracer).expect("in view");
         let stage = Stage::new(&gpu, &tracer, &view, [48, 30]).expect("it can be drawn");
-        let light = scene.lights[0].to_light(stage.lamp_near).expect("a sound light");
+        let light = scene.lights[0].to_light(stage.lamp_near(&scene.lights[0])).expect("a sound light");
         let plain = Options::new(Technique::Uniform, 64);
         let ways =
             [plain, Options { faces: Faces::Layers, ..plain }, Options { technique: Technique::Psm, ..plain }];

@@ -48,11 +48,11 @@ impl Layout {
         bias.context("there is no such filter")
     }
 
-    /// The same for the verdict, of a map that was fitted to a view with its eye there.
+    /// The same for the verdict.
     #[must_use]
-    pub fn projection(&self, eye: DVec3) -> Box<dyn Projection> {
+    pub fn projection(&self) -> Box<dyn Projection> {
         match self {
-            Self::Frustum(map) => Box::new(Frustum::new(map, eye)),
+            Self::Frustum(map) => Box::new(Frustum::new(map)),
             Self::Paraboloid(map) => Box::new(verdict::Hemisphere::new(map)),
         }
     }

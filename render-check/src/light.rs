@@ -60,6 +60,15 @@ impl LightSpec {
         }
     }
 
+    /// How far it reaches, in world units; infinite for a sun.
+    #[must_use]
+    pub fn range(&self) -> f64 {
+        match *self {
+            Self::Sun { .. } => f64::INFINITY,
+            Self::Point { range, .. } | Self::Spot { range, .. } => range,
+        }
+    }
+
     /// The same light elsewhere: `moved` takes its position, and what it is aimed at, to where they are to be.
     #[must_use]
     pub fn with_position(&self, moved: impl Fn(DVec3) -> DVec3) -> Self {

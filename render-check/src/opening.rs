@@ -9,7 +9,7 @@ use shadowfit::View;
 use shadowfit::glam::DVec3;
 
 use crate::args::ViewArgs;
-use crate::fitting::lamp_near;
+use crate::fitting::least_lamp_near;
 use crate::framing::{Camera, choose_camera, choose_view};
 use crate::light::LightSpec;
 use crate::progress::spinner;
@@ -96,7 +96,7 @@ pub fn choose_lights(args: &ViewArgs, scene: &LoadedScene) -> Vec<LightSpec> {
     if !args.lights.is_empty() {
         return args.lights.clone();
     }
-    let near = args.lamp_near.unwrap_or_else(|| lamp_near(&scene.mesh));
+    let near = args.lamp_near.unwrap_or_else(|| least_lamp_near(&scene.mesh));
     let is_usable = |light: &LightSpec| match light.to_light(near) {
         Ok(_) => true,
         Err(error) => {

@@ -211,7 +211,7 @@ fn judged(
     lit: &[f32],
 ) -> Result<Verdict> {
     let projections: Vec<Option<Box<dyn Projection>>> =
-        fitted.maps.iter().map(|map| map.as_ref().map(|map| map.map.projection(stage.view.eye()))).collect();
+        fitted.maps.iter().map(|map| map.as_ref().map(|map| map.map.projection())).collect();
     let mut depths = depths.iter();
     let maps: Vec<Option<DrawnMap<'_>>> = fitted
         .maps

@@ -30,8 +30,8 @@ pub struct Stage<'a> {
     pub geometry: Geometry,
     /// What the camera sees.
     pub surfaces: Surfaces,
-    /// The distance from a lamp at which its map begins, in world units.
-    pub lamp_near: f64,
+    /// The distance from lamps at which their maps begin, in world units, where somebody says.
+    lamp_near: Option<f64>,
 }
 
 impl<'a> Stage<'a> {
@@ -43,7 +43,7 @@ impl<'a> Stage<'a> {
     pub fn new(gpu: &'a Gpu, tracer: &'a Tracer<'a>, view: &View, size: [u32; 2]) -> Result<Self> {
         let geometry = Geometry::upload(gpu, tracer.mesh(), view.eye())?;
         let surfaces = Surfaces::draw(gpu, &geometry, view, size)?;
-        let (bounds, lamp_near) = (scene_box(tracer.mesh())?, lamp_near(tracer.mesh()));
+        let bounds = scene_box(tracer.mesh())?;
         let origin = Origin::Eye;
         Ok(Self {
             gpu,
@@ -55,7 +55,7 @@ impl<'a> Stage<'a> {
             origin,
             geometry,
             surfaces,
-            lamp_near,
+            lamp_near: None,
         })
     }
 
@@ -82,7 +82,13 @@ impl<'a> Stage<'a> {
     /// The same with lamps whose maps begin at another distance, if one is given.
     #[must_use]
     pub fn with_lamp_near(self, lamp_near: Option<f64>) -> Self {
-        Self { lamp_near: lamp_near.unwrap_or(self.lamp_near), ..self }
+        Self { lamp_near, ..self }
+    }
+
+    /// The distance from a lamp at which its map begins, in world units; see [`lamp_near`] where nobody says.
+    #[must_use]
+    pub fn lamp_near(&self, spec: &LightSpec) -> f64 {
+        self.lamp_near.unwrap_or_else(|| lamp_near(self.tracer, spec))
     }
 
     /// A light, as the fit takes it and as rays see it from here.
@@ -91,9 +97,10 @@ impl<'a> Stage<'a> {
     ///
     /// When the light makes no sense.
     pub fn light(&self, spec: LightSpec) -> Result<StageLight> {
-        let light = spec.to_light(self.lamp_near)?;
+        let near = self.lamp_near(&spec);
+        let light = spec.to_light(near)?;
         let triangles = &self.surfaces.triangles;
-        let truth = TruthImage::trace(&self.view, self.size, triangles, &spec, self.lamp_near, self.tracer)?;
+        let truth = TruthImage::trace(&self.view, self.size, triangles, &spec, near, self.tracer)?;
         Ok(StageLight { spec, light, truth })
     }
 }

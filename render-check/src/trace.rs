@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use parry3d_f64::math::Vector;
-use parry3d_f64::query::{Ray as ParryRay, RayCast, RayCullingMode};
+use parry3d_f64::query::{PointQuery as _, Ray as ParryRay, RayCast, RayCullingMode};
 use parry3d_f64::shape::TriMesh;
 use shadowfit::glam::DVec3;
 use shadowfit::{Culling, DepthTest, Solidity};
@@ -125,6 +125,12 @@ impl<'a> Tracer<'a> {
     #[must_use]
     pub fn bounds(&self) -> (DVec3, DVec3) {
         self.bounds
+    }
+
+    /// How far a point is from the nearest triangle, in world units.
+    #[must_use]
+    pub fn distance_to(&self, point: DVec3) -> f64 {
+        self.tree.distance_to_local_point(to_parry(point), false)
     }
 
     /// The first triangle along the ray, from either side.

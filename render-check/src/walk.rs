@@ -123,7 +123,7 @@ pub fn walk(args: &WalkArgs) -> Result<()> {
     let mut here = Stage::new(&gpu, &tracer, &start, size)?.with_lamp_near(args.view.lamp_near);
     let mut walkers = Vec::new();
     for spec in &lights {
-        let light = spec.to_light(here.lamp_near)?;
+        let light = spec.to_light(here.lamp_near(spec))?;
         for way in &ways {
             walkers.push(Walker::new(*spec, *way, FittedMaps::new(&here, &light, &way.options)?.ok()));
         }

@@ -132,7 +132,7 @@ fn judged(stage: &Stage<'_>, light: &StageLight, map: &Map, casters: &[std::ops:
     let shadow_maps = ShadowMaps::draw(stage.gpu, &stage.geometry, &split, &[Some(draw)]).expect("drawn");
     let lit = shadow_test(stage.gpu, &stage.surfaces, &shadow_maps, Filter::Nearest).expect("tested").lit;
     let depths = shadow_maps.depths(stage.gpu).expect("readable");
-    let frustum = Frustum::new(map, stage.view.eye());
+    let frustum = Frustum::new(map);
     let bias = verdict::Bias::most(&pass);
     let drawn = DrawnMap { projection: &frustum, depths: &depths[0], is_reversed: false, bias };
     let rendered = Rendered {

@@ -34,17 +34,21 @@ pub const MAP_ARRAY: &str = include_str!("map_array.wgsl");
 pub const FILTERS: &str = include_str!("filters.wgsl");
 
 /// The same with virtual samples ([`crate::TangentPlane`]), over 2 × 2 texels, blended, and over N × N: they need no bias
-/// on planes. They need [`FILTERS`] before them. `constant` is
-/// [`Map::comparison_tolerance`](crate::Map::comparison_tolerance); the normal is the triangle's, not a smooth one.
+/// on planes. They need [`FILTERS`] before them. `parts` is
+/// [`Map::comparison_tolerance`](crate::Map::comparison_tolerance), from which the second function makes the tolerance that
+/// the others take; the normal is the triangle's, not a smooth one.
 ///
 /// ```wgsl
 /// struct shadowfit_Sampled { share: f32, used_plane: bool }
 /// fn shadowfit_slopes(texture_from_origin: mat4x4<f32>, projected: vec3<f32>, normal: vec3<f32>) -> vec2<f32>
+/// fn shadowfit_tolerance(
+///     map: shadowfit_Map, texture_from_origin: mat4x4<f32>, position: vec3<f32>, slopes: vec2<f32>, parts: vec4<f32>,
+/// ) -> f32
 /// fn shadowfit_virtual_blended(
-///     map: shadowfit_Map, layer: i32, projected: vec3<f32>, slopes: vec2<f32>, constant: f32, reversed: bool,
+///     map: shadowfit_Map, layer: i32, projected: vec3<f32>, slopes: vec2<f32>, tolerance: f32, reversed: bool,
 /// ) -> shadowfit_Sampled
 /// fn shadowfit_virtual_mean(
-///     map: shadowfit_Map, layer: i32, projected: vec3<f32>, slopes: vec2<f32>, taps: i32, constant: f32, reversed: bool,
+///     map: shadowfit_Map, layer: i32, projected: vec3<f32>, slopes: vec2<f32>, taps: i32, tolerance: f32, reversed: bool,
 /// ) -> shadowfit_Sampled
 /// ```
 pub const VIRTUAL_SAMPLES: &str = include_str!("virtual_samples.wgsl");
@@ -54,13 +58,13 @@ pub const VIRTUAL_SAMPLES: &str = include_str!("virtual_samples.wgsl");
 ///
 /// The first function is for the fragments of the second pass, which draws the same triangles with the same vertex shader
 /// and matrix into a map of its own, with `first_layer` to read from: what it answers `false` for is to be discarded. The
-/// position must be `@invariant` in both passes. `gap` is twice
-/// [`Map::comparison_tolerance`](crate::Map::comparison_tolerance), once for each of the two depths, so that neither the
-/// rounding to the format nor a second triangle in the same plane makes a layer.
+/// position must be `@invariant` in both passes. `parts` is
+/// [`Map::comparison_tolerance`](crate::Map::comparison_tolerance) for one texel, a reach of 0.5, which counts once for
+/// each of the two depths, so that neither the rounding to the format nor a second triangle in the same plane makes a layer.
 ///
 /// ```wgsl
 /// fn shadowfit_is_behind(
-///     first_layer: shadowfit_Map, layer: i32, fragment: vec4<f32>, gap: f32, reversed: bool,
+///     first_layer: shadowfit_Map, layer: i32, fragment: vec4<f32>, parts: vec4<f32>, reversed: bool,
 /// ) -> bool
 /// fn shadowfit_between_layers(
 ///     first_layer: shadowfit_Map, second_layer: shadowfit_Map, layer: i32, projected: vec3<f32>, taps: i32,
@@ -98,12 +102,14 @@ mod tests {
             fn fragment(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> @location(0) vec4<f32> {
                 let projected = shadowfit_project(texture_from_origin, position);
                 let slopes = shadowfit_slopes(texture_from_origin, projected, normal);
-                let blended = shadowfit_virtual_blended(map, 1, projected, slopes, 1e-6, false);
-                let mean = shadowfit_virtual_mean(map, 0, projected, slopes, 3, 1e-6, true);
+                let parts = vec4(1e-7, 1e-8, 1e-6, 1.0 / 256.0);
+                let tolerance = shadowfit_tolerance(map, texture_from_origin, position, slopes, parts);
+                let blended = shadowfit_virtual_blended(map, 1, projected, slopes, tolerance, false);
+                let mean = shadowfit_virtual_mean(map, 0, projected, slopes, 3, tolerance, true);
                 let nearest = shadowfit_nearest(map, 0, projected, false);
                 let hardware = shadowfit_hardware(map, 1, compare, projected);
                 let between = shadowfit_between_layers(map, second, 0, projected, 3, false);
-                if (!shadowfit_is_behind(map, 0, vec4(projected, 1.0), 1e-6, false)) {
+                if (!shadowfit_is_behind(map, 0, vec4(projected, 1.0), parts, false)) {
                     discard;
                 }
                 return vec4(blended.share, mean.share, nearest, hardware)

@@ -27,10 +27,14 @@ fn shadowfit_slopes(texture_from_origin: mat4x4<f32>, projected: vec3<f32>, norm
     return vec2(dot(normal, cross(z, v)), dot(normal, cross(u, z))) / bounded;
 }
 
-// What a comparison with the plane allows for: `constant`, and the rasteriser's grid of a 256th of a texel.
-fn shadowfit_tolerance(map: shadowfit_Map, slopes: vec2<f32>, constant: f32) -> f32 {
+// What a comparison with the plane allows for at a position: `parts` is the map's `comparison_tolerance`, its constant, what
+// goes over w, the most of that, and what multiplies the slopes.
+fn shadowfit_tolerance(
+    map: shadowfit_Map, texture_from_origin: mat4x4<f32>, position: vec3<f32>, slopes: vec2<f32>, parts: vec4<f32>,
+) -> f32 {
+    let w = (texture_from_origin * vec4(position, 1.0)).w;
     let steps = abs(slopes) / vec2<f32>(shadowfit_size(map));
-    return constant + (steps.x + steps.y) / 256.0;
+    return parts.x + min(parts.y / w, parts.z) + parts.w * (steps.x + steps.y);
 }
 
 // Whether the plane passes at a texel's centre.
@@ -45,12 +49,10 @@ fn shadowfit_plane_passes(
     return shadowfit_passes(map, layer, inside, depth, tolerance, reversed);
 }
 
-// The share of light by the four texels around a place, blended by its distance from their centres. `constant` is the
-// map's `comparison_tolerance`.
+// The share of light by the four texels around a place, blended by its distance from their centres.
 fn shadowfit_virtual_blended(
-    map: shadowfit_Map, layer: i32, projected: vec3<f32>, slopes: vec2<f32>, constant: f32, reversed: bool,
+    map: shadowfit_Map, layer: i32, projected: vec3<f32>, slopes: vec2<f32>, tolerance: f32, reversed: bool,
 ) -> shadowfit_Sampled {
-    let tolerance = shadowfit_tolerance(map, slopes, constant);
     let first = shadowfit_first(map, projected.xy, 2);
     let passed = shadowfit_passed(map, layer, first, 2, projected.z, tolerance, reversed);
     if (passed == 0 || passed == 4) {
@@ -72,9 +74,8 @@ fn shadowfit_virtual_blended(
 
 // By a square of texels, `taps` across and down, each counted alike. One tap always asks the plane.
 fn shadowfit_virtual_mean(
-    map: shadowfit_Map, layer: i32, projected: vec3<f32>, slopes: vec2<f32>, taps: i32, constant: f32, reversed: bool,
+    map: shadowfit_Map, layer: i32, projected: vec3<f32>, slopes: vec2<f32>, taps: i32, tolerance: f32, reversed: bool,
 ) -> shadowfit_Sampled {
-    let tolerance = shadowfit_tolerance(map, slopes, constant);
     let first = shadowfit_first(map, projected.xy, taps);
     let all = taps * taps;
     let passed = shadowfit_passed(map, layer, first, taps, projected.z, tolerance, reversed);

@@ -6,8 +6,8 @@
 use crate::setups::{SetUp, casters, setups};
 use shadowfit::glam::{DMat4, DVec2, DVec3, DVec4, Mat4, Vec4};
 use shadowfit::{
-    Body, ClipSpace, DepthBias, DepthFormat, DepthResolution, Filter, Focus, Footprint, Form, Light, Map, Offset,
-    Outcome, Paraboloid, Plane, Sampled, Splat, TangentPlane, View, VirtualCamera, classify,
+    Body, ClipSpace, ComparisonTolerance, DepthBias, DepthFormat, DepthResolution, Filter, Focus, Footprint, Form,
+    Light, Map, Offset, Outcome, Paraboloid, Plane, Sampled, Splat, TangentPlane, View, VirtualCamera, classify,
 };
 use std::fmt::Write;
 
@@ -242,7 +242,8 @@ fn put_bias(map: &Map, focus: &Focus<'_>, numbers: &mut Numbers) {
         let bias = map.bias(format, filter.reach()).expect("a bias");
         bias.put(numbers);
         map.texture_from_world_with(&bias.offset()).put(numbers);
-        map.comparison_tolerance(format).put(numbers);
+        let tolerance = map.comparison_tolerance(format, filter.reach()).expect("a tolerance");
+        [tolerance.constant, tolerance.over_w, tolerance.most, tolerance.slope].put(numbers);
         for point in focus.visible().vertices() {
             NORMALS.map(|normal| map.bias_distance(*point, normal, &bias)).put(numbers);
         }
@@ -266,8 +267,9 @@ fn put_points(map: &Map, focus: &Focus<'_>, numbers: &mut Numbers) {
             plane.place().put(numbers);
             plane.slopes().put(numbers);
             let stored = |x: u32, y: u32| plane.depth() + (f64::from(x % 3) - f64::from(y % 2)) / 4096.0;
-            [plane.depth(), plane.tolerance(0.0)].put(numbers);
-            [plane.blended(0.0, stored), plane.mean(3, 0.0, stored)].put(numbers);
+            let tolerance = ComparisonTolerance::constant(0.0);
+            [plane.depth(), plane.tolerance(&tolerance)].put(numbers);
+            [plane.blended(&tolerance, stored), plane.mean(3, &tolerance, stored)].put(numbers);
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use glam::{DMat4, DVec3, Vec3, Vec4};
 use shadowfit::{
-    Aabb, ClipSpace, ConvexScene, CubeFace, Cuts, DAabb, DepthFormat, DepthRange, Filter, Focus, Form, InputError,
-    Layout, Light, Map, Offset, Origin, Outcome, Paraboloid, Plane, Scene, Settings, Shift, Slices, Split,
-    TangentPlane, Tangents, TextureOrigin, View, Warp, YAxis,
+    Aabb, ClipSpace, ComparisonTolerance, ConvexScene, CubeFace, Cuts, DAabb, DepthFormat, DepthRange, Filter,
+    Focus, Form, InputError, Layout, Light, Map, Offset, Origin, Outcome, Paraboloid, Plane, Scene, Settings,
+    Shift, Slices, Split, TangentPlane, Tangents, TextureOrigin, View, Warp, YAxis,
 };
 
 use super::results::exercise;
@@ -293,9 +293,10 @@ fn asked(bits: &mut Bits<'_>, map: &Map) {
     if let Some(plane) = TangentPlane::new(map, point, normal) {
         assert!(plane.place().is_finite() && plane.depth().is_finite() && plane.slopes().is_finite(), "{plane:?}");
         let taps = bits.below(9) as u32;
-        let share = plane.mean(taps, 1e-6, |x, y| f64::from(x ^ y) / 65_536.0).share;
+        let tolerance = ComparisonTolerance::constant(1e-6);
+        let share = plane.mean(taps, &tolerance, |x, y| f64::from(x ^ y) / 65_536.0).share;
         assert!((0.0..=1.0).contains(&share), "{share}");
-        assert!((0.0..=1.0).contains(&plane.blended(1e-6, |_, _| 0.5).share));
+        assert!((0.0..=1.0).contains(&plane.blended(&tolerance, |_, _| 0.5).share));
     }
     for splat in
         [map.splat(point, bits.number()), map.disc_splat(point, normal, bits.number())].into_iter().flatten()
@@ -311,6 +312,9 @@ fn asked(bits: &mut Bits<'_>, map: &Map) {
         let (offset, most) = (map.normal_offset(point, normal, &bias), map.normal_offset_at(point, &bias));
         assert!(offset >= 0.0 && most >= 0.0, "{offset}, {most}");
         assert!(map.texture_matrix_with(&bias.offset()).is_finite(), "{bias:?}");
+    }
+    if let Ok(tolerance) = map.comparison_tolerance(format, bits.number()) {
+        assert!(tolerance.to_array().into_iter().all(|part| part.is_finite() && part >= 0.0), "{tolerance:?}");
     }
     let offset = match bits.below(3) {
         0 => Offset::world(bits.number()),

@@ -81,7 +81,7 @@ pub(crate) fn holds_what_it_must(case: &Case, settings: &Settings, seed: u64) {
 }
 
 /// Depth from 0 at the near end to 1 at the far end, in any convention.
-fn depth_of(clip: ClipSpace, position: DVec4) -> f64 {
+pub(super) fn depth_of(clip: ClipSpace, position: DVec4) -> f64 {
     let z = position.z / position.w;
     match clip.depth {
         DepthRange::ZeroToOne => z,

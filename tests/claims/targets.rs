@@ -42,6 +42,7 @@ pub(crate) fn virtual_samples(bytes: &[u8]) {
     virtual_samples::depths_are_exact(&case, &settings, seed);
     virtual_samples::shaders_find_them(&case, &settings, seed);
     virtual_samples::rules_hold_where_planes_are_seen(&case, &settings, seed);
+    virtual_samples::allows_for_rounding(&case, &settings, seed);
 }
 
 /// All that is claimed of plans.

@@ -1,8 +1,11 @@
 //! Virtual samples: depths of a plane at places where it was not seen, against the matrix, in f64 and as a shader has them.
 
 use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec3};
-use shadowfit::{LEAST_INCIDENCE, Map, Origin, Outcome, Rule, Settings, TangentPlane};
+use shadowfit::{
+    ComparisonTolerance, DepthFormat, LEAST_INCIDENCE, Map, Origin, Outcome, Rule, SUBTEXEL, Settings, TangentPlane,
+};
 
+use super::single_precision::{depth_of, in_f32, rounding};
 use crate::arbitrary::{Case, Numbers, Together, points_of, sides};
 
 /// The unit roundoffs.
@@ -200,7 +203,8 @@ pub(crate) fn rules_only_cut_short(map: &Map, plane: TangentPlane, seed: u64) {
     let spread = 4.0 * (plane.slopes().abs() / sides).element_sum();
     let field = |x: u32, y: u32| Numbers(seed ^ u64::from(x) << 32 ^ u64::from(y)).part() - 0.5;
     let stored = |x: u32, y: u32| plane.depth() + spread * field(x, y);
-    let tolerance = plane.tolerance(1e-7);
+    let parts = ComparisonTolerance::constant(1e-7);
+    let tolerance = plane.tolerance(&parts);
     let passes = |depth: f64, x: u32, y: u32| away * (depth.clamp(0.0, 1.0) - stored(x, y)) <= tolerance;
     for taps in 1..=5_u32 {
         let first = (plane.place() * sides - 0.5 * f64::from(taps - 1)).floor();
@@ -209,7 +213,7 @@ pub(crate) fn rules_only_cut_short(map: &Map, plane: TangentPlane, seed: u64) {
         let of_point = texels.iter().filter(|&&(x, y)| passes(plane.depth(), x, y)).count();
         let at = |x: u32, y: u32| plane.depth_at((DVec2::new(f64::from(x), f64::from(y)) + 0.5) / sides);
         let of_plane = texels.iter().filter(|&&(x, y)| passes(at(x, y), x, y)).count();
-        let sampled = plane.mean(taps, 1e-7, stored);
+        let sampled = plane.mean(taps, &parts, stored);
         let expected = match sampled.rule {
             Rule::AllPass => (of_point == texels.len()).then_some(1.0),
             Rule::NonePass => (of_point == 0).then_some(0.0),
@@ -222,7 +226,7 @@ pub(crate) fn rules_only_cut_short(map: &Map, plane: TangentPlane, seed: u64) {
         assert!((sampled.share - expected).abs() < 1e-12, "{sampled:?}, {expected}");
     }
     // Blended, the weights are those of the centres around the point.
-    let blended = plane.blended(1e-7, stored);
+    let blended = plane.blended(&parts, stored);
     let corner = plane.place() * sides - 0.5;
     let part = corner.fract();
     let weights =
@@ -234,5 +238,52 @@ pub(crate) fn rules_only_cut_short(map: &Map, plane: TangentPlane, seed: u64) {
         around.iter().zip(weights).filter(|((x, y), _)| passes(at(*x, *y), *x, *y)).map(|(_, w)| w).sum();
     if blended.rule == Rule::VirtualSamples {
         assert!((blended.share - share).abs() < 1e-9, "{blended:?}, {share}");
+    }
+}
+
+/// Asserts that the depth of a point and that stored for a texel of the same plane differ by no more than is allowed for
+/// rounding: triangles of three points of what is visible, as f32 has their corners and a point between them.
+pub(crate) fn allows_for_rounding(case: &Case, settings: &Settings, seed: u64) {
+    let together = Together::of(case);
+    let focus = together.focus();
+    let Outcome::Map(map) = focus.fit(settings) else { return };
+    let mut numbers = Numbers(seed);
+    let sides = sides(settings);
+    let off = |point| {
+        let exact = depth_of(settings.clip(), map.shadow_from_world() * DVec3::extend(point, 1.0));
+        let (_, of_w) = rounding(&map, point);
+        let is_counted = together.is_served(point) && of_w <= 0.5 && exact.abs() <= 1.0;
+        let found = depth_of(settings.clip(), in_f32(&map, point).as_dvec4());
+        is_counted.then_some(found - exact)
+    };
+    for corners in points_of(&focus.visible(), seed).windows(3) {
+        let [a, b, c] = [corners[0], corners[1], corners[2]];
+        let (s, t) = (numbers.part(), numbers.part());
+        let point = a + s * ((b - a) + t * (c - b));
+        let Some(plane) = TangentPlane::new(&map, point, (b - a).cross(c - a)) else { continue };
+        let errors = [a, b, c, point].map(off);
+        let [Some(of_a), Some(of_b), Some(of_c), Some(of_point)] = errors else { continue };
+        for reach in [0.5, 1.0, 2.5] {
+            let step = DVec2::new(numbers.part(), numbers.part()) * 2.0 - 1.0;
+            let texel = plane.place() + reach * step / sides;
+            let [at_a, at_b, at_c] = [a, b, c].map(|p| projected(map.texture_from_world(), p).truncate() - texel);
+            let parts = [at_b.perp_dot(at_c), at_c.perp_dot(at_a), at_a.perp_dot(at_b)];
+            let all: f64 = parts.iter().sum();
+            let [part_a, part_b, part_c] = parts.map(|part| part / all);
+            if !(part_a >= 0.0 && part_b >= 0.0 && part_c >= 0.0) {
+                continue;
+            }
+            let tolerance = map.comparison_tolerance(DepthFormat::Float32, reach).expect("a reach");
+            // Without what is for the format and for the rasteriser.
+            let grid = SUBTEXEL * (plane.slopes().abs() / sides).element_sum();
+            let allowed = plane.tolerance(&tolerance) - 0.5 * DepthFormat::Float32.step(1.0) - grid;
+            let stored = part_a * of_a + part_b * of_b + part_c * of_c;
+            // Exact depths are f64's.
+            let noise = 64.0 * F64 + 1e-9 * grid;
+            assert!(
+                (of_point - stored).abs() <= allowed + noise,
+                "{of_point} {stored}, {allowed} allowed, at {point}"
+            );
+        }
     }
 }

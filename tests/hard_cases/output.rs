@@ -1,7 +1,10 @@
 //! Rows 29 to 35: what is uploaded, sampled and compared.
 
 use shadowfit::glam::{DVec3, Vec3};
-use shadowfit::{Aabb, Filter, Focus, Light, Map, Paraboloids, Rule, Scene, Settings, TangentPlane, View, Warp};
+use shadowfit::{
+    Aabb, ComparisonTolerance, Filter, Focus, Light, Map, Paraboloids, Rule, Scene, Settings, TangentPlane, View,
+    Warp,
+};
 #[cfg(feature = "std")]
 use shadowfit::{Culling, DepthTest, Solidity};
 
@@ -131,8 +134,9 @@ fn row_32_caster_touching_its_receiver() {
     }
     let (map, plane) = floor(Warp::Perspective);
     for tolerance in powers().filter(|x| *x > 0.0) {
-        let allowed = plane.tolerance(tolerance);
-        let at = |nearer: f64| plane.blended(tolerance, |x, y| plane.depth_at(centre(&map, x, y)) - nearer).share;
+        let tolerance = ComparisonTolerance::constant(tolerance);
+        let allowed = plane.tolerance(&tolerance);
+        let at = |nearer: f64| plane.blended(&tolerance, |x, y| plane.depth_at(centre(&map, x, y)) - nearer).share;
         // Comparisons of depths round: a few steps of numbers below one.
         let rounding = 8.0 * f64::EPSILON;
         for height in powers().map(f64::abs) {
@@ -158,8 +162,9 @@ fn row_33_at_most_and_not_less() {
     let sheet = TangentPlane::new(&map, DVec3::new(0.0, 0.5, -4.0), DVec3::new(0.4, 0.3, 0.5)).expect("in the map");
     let depth = sheet.depth();
     // What is left of slopes across the light is rounding.
-    assert!(sheet.tolerance(0.0) <= 1e-15, "{:e}", sheet.tolerance(0.0));
-    let stored = |depth: f64| [sheet.blended(0.0, |_, _| depth), sheet.mean(3, 0.0, |_, _| depth)];
+    let none = ComparisonTolerance::constant(0.0);
+    assert!(sheet.tolerance(&none) <= 1e-15, "{:e}", sheet.tolerance(&none));
+    let stored = |depth: f64| [sheet.blended(&none, |_, _| depth), sheet.mean(3, &none, |_, _| depth)];
     for own in stored(depth) {
         assert_eq!((own.share, own.rule), (1.0, Rule::AllPass));
     }

@@ -252,8 +252,13 @@ fn draw_layer(
         let Layout::Frustum(map) = &draw.map else { bail!("paraboloids have no second layer") };
         ensure!(draw.pass.points == Points::Discs, "between layers points are drawn as discs");
         shader = shaders::second_layer();
-        let gap = 2.0 * map.comparison_tolerance(draw.pass.format);
-        constants.extend([("gap", gap), ("reversed", f64::from(u8::from(reversed)))]);
+        let tolerance = map.comparison_tolerance(draw.pass.format, 0.5)?;
+        constants.extend([
+            ("constant_tolerance", tolerance.constant),
+            ("tolerance_over_w", tolerance.over_w),
+            ("most_over_w", tolerance.most),
+            ("reversed", f64::from(u8::from(reversed))),
+        ]);
         resources.push(wgpu::BindingResource::TextureView(first_layer));
     }
     let (triangles, discs) = match draw.pass.points {

@@ -148,7 +148,8 @@ fn shadow_test_unguarded(
     .build(gpu);
 
     let split = gpu.storage(shadow_maps.split.iter().flat_map(|row| row.to_array()));
-    let layers = gpu.storage(shadow_maps.maps.iter().flat_map(|(map, receiver)| layer(map, receiver, shadow_maps)));
+    let layers = shadow_maps.maps.iter().map(|(map, receiver)| layer(map, receiver, shadow_maps, filter));
+    let layers = gpu.storage(layers.collect::<Result<Vec<_>>>()?.into_iter().flatten());
     let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
         mag_filter: wgpu::FilterMode::Linear,
         min_filter: wgpu::FilterMode::Linear,
@@ -187,13 +188,13 @@ fn shadow_test_unguarded(
 }
 
 /// What the shader knows of a layer.
-fn layer(map: &Layout, receiver: &Offset, shadow_maps: &ShadowMaps) -> Vec<f32> {
+fn layer(map: &Layout, receiver: &Offset, shadow_maps: &ShadowMaps, filter: Filter) -> Result<Vec<f32>> {
     let sampled = sampled_from_texture(map.settings().clip());
-    match map {
+    Ok(match map {
         Layout::Frustum(map) => {
             let matrices = [map.texture_matrix_with(receiver), sampled];
-            let tolerance = map.comparison_tolerance(shadow_maps.format) as f32;
-            matrices.iter().flat_map(Mat4::to_cols_array).chain([tolerance, 0.0, 0.0, 0.0]).collect()
+            let tolerance = map.comparison_tolerance(shadow_maps.format, filter.reach())?;
+            matrices.iter().flat_map(Mat4::to_cols_array).chain(tolerance.to_array()).collect()
         }
         Layout::Paraboloid(map) => {
             let mut scale = map.texture_scale();
@@ -201,7 +202,7 @@ fn layer(map: &Layout, receiver: &Offset, shadow_maps: &ShadowMaps) -> Vec<f32> 
             scale.y *= sampled.y_axis.y;
             map.receiver_matrix(receiver).to_cols_array().into_iter().chain(scale.to_array()).collect()
         }
-    }
+    })
 }
 
 /// From an API that counts texture rows from the bottom to wgpu, which counts them from the top: there the same row of

@@ -176,11 +176,12 @@ fn virtual_samples_on_the_card_are_those_of_the_crate() {
         let (geometry, shadow_maps) = draw_all(&stage, DepthFormat::Float32, Bias::NONE);
         let surfaces = Surfaces::draw(&stage.gpu, &geometry, &stage.view, IMAGE).expect("drawn");
         let depths = shadow_maps.depths(&stage.gpu).expect("readable").remove(0);
-        let tolerance = stage.map.comparison_tolerance(DepthFormat::Float32);
         let lens = Lens::of_view(&stage.view).expect("invertible");
         let tracer = Tracer::new(&stage.mesh).expect("it has triangles");
         let stored = |x: u32, y: u32| f64::from(depths[(y * MAP + x) as usize]);
         for taps in [2, 3] {
+            let reach = Filter::Virtual(taps).reach();
+            let tolerance = stage.map.comparison_tolerance(DepthFormat::Float32, reach).expect("a reach");
             let Shadows { lit, used_plane, .. } =
                 shadow_test(&stage.gpu, &surfaces, &shadow_maps, Filter::Virtual(taps)).expect("tested");
             let (mut compared, mut same, mut of_plane) = (0, 0, 0);
@@ -192,8 +193,8 @@ fn virtual_samples_on_the_card_are_those_of_the_crate() {
                     continue;
                 };
                 let expected = match taps {
-                    2 => plane.blended(tolerance, stored),
-                    _ => plane.mean(taps, tolerance, stored),
+                    2 => plane.blended(&tolerance, stored),
+                    _ => plane.mean(taps, &tolerance, stored),
                 };
                 let is_alike = (expected.share - f64::from(lit[i])).abs() < 0.01;
                 compared += 1;
@@ -224,7 +225,9 @@ fn the_second_layer_is_the_next_surface_that_rays_meet() {
             let behind = read_back::depths(&stage.gpu, behind, MAP).expect("readable");
             let first = maps.depths(&stage.gpu).expect("readable").remove(0);
             let away = |depth: f32| f64::from(if clip.depth.is_reversed() { 1.0 - depth } else { depth });
-            let gap = 2.0 * stage.map.comparison_tolerance(format);
+            let tolerance = stage.map.comparison_tolerance(format, 0.5).expect("a reach");
+            // The least that it is anywhere.
+            let gap = 2.0 * tolerance.at(1.0);
             let (mut same, mut beyond) = (0, 0);
             for (i, (first, behind)) in first.into_iter().zip(behind).enumerate() {
                 let (first, behind) = (away(first), away(behind));

@@ -8,7 +8,7 @@ use shadowfit::glam::DVec3;
 use shadowfit::{DepthFormat, Origin, View};
 
 use super::IMAGE;
-use super::faults::{far_off, faults};
+use super::faults::{far_off, faults, from_the_origin};
 use super::lights::{NamedLight, lamps_through_the_plane, suns_across, through_the_back};
 use super::surfaces::through_surfaces;
 use crate::args::ClipArg;
@@ -74,7 +74,7 @@ impl Shot {
 }
 
 /// All groups.
-pub const GROUPS: [Group; 23] = [
+pub const GROUPS: [Group; 24] = [
     Group {
         name: "classes-of-suns",
         shots: || Ok(vec![chess_board()?.shot("arc", suns_across)?.warped().and_stable()]),
@@ -112,6 +112,7 @@ pub const GROUPS: [Group; 23] = [
     },
     Group { name: "faults", shots: faults },
     Group { name: "far-off", shots: far_off },
+    Group { name: "from-the-origin", shots: from_the_origin },
     Group { name: "through-surfaces", shots: through_surfaces },
 ];
 

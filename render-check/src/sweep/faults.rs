@@ -52,3 +52,16 @@ pub(super) fn far_off() -> Result<Vec<Shot>> {
     }
     Ok(shots.into_iter().map(|shot| shot.with_options(options.clone())).collect())
 }
+
+/// The chess board a hundred metres to a hundred kilometres from the origin, its vertices in f32, with maps, casters and
+/// receivers in world space.
+pub(super) fn from_the_origin() -> Result<Vec<Shot>> {
+    let options = [Technique::Uniform, Technique::Best, Technique::Cube].map(|way| Options::new(way, MAP_SIZE));
+    let shot = |distance: f64| {
+        let offset = distance * DVec3::new(1.0, -0.3, 0.7);
+        let far = in_single_precision(&Stand::built_in("chess-board")?.scene.moved(1.0, offset));
+        let shot = Stand::before(far)?.own_lights(&format!("{distance:e} m from the origin, in world space"))?;
+        Ok(Shot { origin: Origin::World, ..shot.with_options(options.to_vec()) })
+    };
+    [1e2, 1e3, 1e4, 1e5].into_iter().map(shot).collect()
+}

@@ -1,7 +1,7 @@
 //! The projection of a map that is a frustum: one matrix.
 
 use shadowfit::glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
-use shadowfit::{ClipSpace, Map, Origin};
+use shadowfit::{ClipSpace, Map};
 
 use super::projection::Projection;
 
@@ -23,9 +23,9 @@ pub struct Frustum {
 }
 
 impl Frustum {
-    /// The projection of a map that was fitted to a view with its eye there.
+    /// The projection of a map.
     #[must_use]
-    pub fn new(map: &Map, eye: DVec3) -> Self {
+    pub fn new(map: &Map) -> Self {
         let clip_from_world = map.shadow_from_world_in(ClipSpace::WGPU);
         let [x, y, depth, w] = [0, 1, 2, 3].map(|i| clip_from_world.row(i));
         let origin = map.origin();
@@ -109,7 +109,7 @@ mod tests {
         let (normal, point) = (DVec3::new(0.2, 0.9, -0.3).normalize(), DVec3::new(0.4, 0.2, -0.6));
         for (light, warp) in [(SUN, Warp::Uniform), (SUN, Warp::Perspective), (LAMP, Warp::Perspective)] {
             let map = fake::fitted(&light, &fake::settings().with_warp(warp));
-            let frustum = Frustum::new(&map, fake::view().eye());
+            let frustum = Frustum::new(&map);
             let lens = Lens::new(map.shadow_from_world_in(ClipSpace::WGPU)).expect("invertible");
             let place = frustum.place(point).expect("in the map");
             let clip = lens.project(point);
@@ -131,7 +131,7 @@ mod tests {
     #[test]
     fn a_plane_seen_from_its_edge_is_endlessly_steep() {
         let map = fake::fitted(&SUN, &fake::settings());
-        let frustum = Frustum::new(&map, fake::view().eye());
+        let frustum = Frustum::new(&map);
         let slopes = frustum.slopes(DVec3::new(0.4, 0.2, -0.6), DVec3::new(1.0, -0.5, 0.0).normalize());
         assert!(slopes.is_none_or(|slopes| slopes.max_element() > 1e9), "{slopes:?}");
     }
@@ -139,7 +139,7 @@ mod tests {
     #[test]
     fn what_is_beside_the_map_has_no_texel() {
         let map = fake::fitted(&SUN, &fake::settings());
-        let frustum = Frustum::new(&map, fake::view().eye());
+        let frustum = Frustum::new(&map);
         for outside in [DVec2::new(-0.1, 3.0), DVec2::new(3.0, 256.0), DVec2::new(f64::NAN, 3.0)] {
             assert_eq!(frustum.index(outside), None);
         }
@@ -149,7 +149,7 @@ mod tests {
     #[test]
     fn rounding_covers_what_the_f32_matrix_does() {
         let map = fake::fitted(&LAMP, &fake::settings());
-        let frustum = Frustum::new(&map, fake::view().eye());
+        let frustum = Frustum::new(&map);
         let matrix = map.matrix();
         for i in 0..1000 {
             let point =

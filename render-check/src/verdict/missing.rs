@@ -170,7 +170,7 @@ mod tests {
             let tracer = Tracer::new(&mesh).expect("it has triangles");
             let truth = fake::truth(&SUN, &tracer);
             assert!(truth.pixels().iter().any(|pixel| !matches!(pixel, Truth::Sky)));
-            let frustum = Frustum::new(&map, fake::view().eye());
+            let frustum = Frustum::new(&map);
             // Nothing is stored.
             let depths = vec![1.0; 256 * 256];
             let bias = Bias { constant: 0.0, slope };

@@ -112,7 +112,7 @@ fn each_part_of_a_light_is_judged_by_its_own_map() {
     let lit = fake.light(&map, &depths, &truth, &mesh);
     let whole = fake.judge(&map, &depths, &lit, &truth, &tracer).expect("sound inputs");
 
-    let (frustum, split) = (Frustum::new(&map, fake::view().eye()), Split::cube(position));
+    let (frustum, split) = (Frustum::new(&map), Split::cube(position));
     let drawn = DrawnMap { projection: &frustum, depths: &depths, is_reversed: false, bias: fake.bias };
     let verdict = |maps: &[Option<DrawnMap>], lit: &[f32]| {
         judge(&truth, &fake.hand_over(&split, maps, lit), &tracer).expect("sound inputs")
@@ -294,7 +294,7 @@ fn what_does_not_fit_together_is_refused() {
     let truth = trace(&[0, 1, u32::MAX, 0], &SUN).expect("sound inputs");
     let map = fake::fitted(&SUN, &uniform());
     let depths = vec![1.0; 256 * 256];
-    let frustum = Frustum::new(&map, fake::view().eye());
+    let frustum = Frustum::new(&map);
     let drawn = DrawnMap { projection: &frustum, depths: &depths, is_reversed: false, bias: Bias::default() };
     let (split, maps) = (Split::whole(), [Some(drawn)]);
     let whole = Fake::default().hand_over(&split, &maps, &[1.0; 4]);

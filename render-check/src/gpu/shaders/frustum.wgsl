@@ -5,7 +5,7 @@ struct Layer {
     texture_from_origin: mat4x4<f32>,
     // From where another API counts texture rows to where wgpu does; nothing for wgpu's own.
     sampled_from_texture: mat4x4<f32>,
-    // What a comparison with a plane allows for rounding.
+    // What a comparison with a plane allows for, in the parts that the crate gives.
     tolerance: vec4<f32>,
 }
 
@@ -23,6 +23,6 @@ fn slopes_in(layer: i32, projected: vec3<f32>, normal: vec3<f32>) -> vec2<f32> {
     return shadowfit_slopes(sampled_from_origin(layer), projected, normal);
 }
 
-fn tolerance_in(layer: i32) -> f32 {
-    return layers[layer].tolerance.x;
+fn tolerance_in(layer: i32, position: vec3<f32>, slopes: vec2<f32>) -> f32 {
+    return shadowfit_tolerance(shadow_maps, sampled_from_origin(layer), position, slopes, layers[layer].tolerance);
 }

@@ -10,7 +10,7 @@ fn share_of_light(layer: i32, pixel: vec2<u32>, projected: vec3<f32>) -> vec2<f3
     // 0 is the sky, which is not asked for.
     let normal = normals[textureLoad(triangles, pixel, 0).x - 1u].xyz;
     let slopes = slopes_in(layer, projected, normal);
-    let tolerance = tolerance_in(layer);
+    let tolerance = tolerance_in(layer, textureLoad(surfaces, pixel, 0).xyz, slopes);
     var sampled: shadowfit_Sampled;
     if (taps == 2) {
         sampled = shadowfit_virtual_blended(shadow_maps, layer, projected, slopes, tolerance, reversed);
