@@ -25,7 +25,8 @@ use glam::DVec3;
 /// | a shader that writes depth, with m = max(\|dz/dx\|, \|dz/dy\|) | steps of the format | times m | |
 ///
 /// `constant` and, in most maps, `slope` depend on the format and the filter alone, which suits pipelines that they are
-/// compiled into; what changes from fit to fit is in the receiver's matrix, which is uploaded with every fit anyway. One
+/// compiled into: `slope` is the one for places that f32 carries by a 64th of a texel, or, where it carries them farther, one of the
+/// few that are 1.25, 1.5625, … times that. What changes from fit to fit is in the receiver's matrix, which is uploaded with every fit anyway. One
 /// who tests with [`Map::texture_matrix`] as it is takes [`Self::constant_alone`].
 ///
 /// ```
@@ -156,6 +157,51 @@ pub(crate) fn away(bias: &DepthBias, unit: f64, slope: f64) -> f64 {
     f64::from(bias.constant.saturating_abs()) * unit + f64::from(bias.slope.abs()) * slope
 }
 
+/// How far f32 carries places, in texels, in most maps: they have one slope for a format and a filter.
+const USUAL_PLACES: f64 = 1.0 / 64.0;
+
+/// How many times one slope is the next smaller one, where f32 carries places farther.
+const NEXT_SLOPE: f32 = 1.25;
+
+/// The first of `usual` and the slopes above it, each [`NEXT_SLOPE`] times the one before, that is no less than what is needed: each
+/// is a pipeline in wgpu.
+fn one_of_few(usual: f32, needed: f64) -> f32 {
+    let mut slope = usual;
+    while f64::from(slope) < needed {
+        slope *= NEXT_SLOPE;
+    }
+    slope
+}
+
+/// What a slope is made of, see [`DepthBias`].
+struct Slope {
+    slope: f64,
+    /// f.
+    of_slope: f64,
+    /// j: what an error of a corner's change can grow to on the way to the receiver.
+    on_the_way: f64,
+    /// 1 + k + 4 f/h₀.
+    times: f64,
+}
+
+impl Slope {
+    /// For a filter's reach, places that f32 carries by so many texels, and points by such a part of their distance to the light.
+    fn new(reach: f64, places: f64, part: f64) -> Self {
+        let reach = reach + places;
+        let corner = GRID + places;
+        let height = LEAST_HEIGHT.max(8.0 * corner);
+        let on_the_way = 2.0 * core::f64::consts::SQRT_2 * reach;
+        let spread = 1.0 + on_the_way / height;
+        let of_slope = (spread * corner + on_the_way * part) / (1.0 - 2.0 * part - 4.0 * corner / height);
+        Self {
+            slope: 2.0 * (reach + of_slope),
+            of_slope,
+            on_the_way,
+            times: 1.0 + spread + 4.0 * of_slope / height,
+        }
+    }
+}
+
 /// The next multiple of [`SLOPE_STEP`] above a slope.
 pub(crate) fn stepped(slope: f64) -> f32 {
     (f64::from((slope / SLOPE_STEP) as u32 + 1) * SLOPE_STEP) as f32
@@ -200,15 +246,8 @@ impl Map {
         // What is off by more than the map is anywhere.
         let places = place.at(away_w).min(Settings::MAX_SIZE.into());
         let part = if self.light.position().is_some() { (over_w / to_light).min(MOST_OF_DISTANCE) } else { 0.0 };
-        let reach = reach + places;
-        let corner = GRID + places;
-        let height = LEAST_HEIGHT.max(8.0 * corner);
-        // What an error of a corner, and of its change, can grow to on the way to the receiver.
-        let on_the_way = 2.0 * core::f64::consts::SQRT_2 * reach;
-        let spread = 1.0 + on_the_way / height;
-        let of_slope = (spread * corner + on_the_way * part) / (1.0 - 2.0 * part - 4.0 * corner / height);
-        let slope = 2.0 * reach + 2.0 * of_slope;
-        let times = 1.0 + spread + 4.0 * of_slope / height;
+        let Slope { slope, of_slope, on_the_way, times } = Slope::new(reach, places, part);
+        let usual = Slope::new(reach, USUAL_PLACES, 0.0);
         // A unit may be less than a step by a little. A half is in the range of depths with the largest steps below 1.
         let short = (format.step(0.5) - format.bias_unit(0.5).start()).max(0.0);
         let receiver = times * constant + (on_the_way + 2.0 * of_slope) * over_w * change + short;
@@ -221,7 +260,7 @@ impl Map {
         Ok(DepthBias {
             format,
             constant: away,
-            slope: stepped(slope) * away as f32,
+            slope: one_of_few(stepped(usual.slope), slope) * away as f32,
             receiver,
             relative: over_w / to_light,
             most: receiver + over_w / least_w,

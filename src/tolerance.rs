@@ -33,8 +33,8 @@ const MOST_OF_RANGE: f64 = 2.0;
 /// if let Some(map) = fit(&view, &lamp, &scene, &Settings::default()).map() {
 ///     let tolerance = map.comparison_tolerance(DepthFormat::Float32, 1.0)?; // 2 × 2 texels
 ///     let floor = TangentPlane::new(map, (0.0, 0.0, -5.0).into(), (0.0, 1.0, 0.0).into()).expect("in the map");
-///     // Four metres from the lamp it is a small part of what it is a centimetre from it.
-///     assert!(floor.tolerance(&tolerance) < 0.1 * tolerance.most);
+///     // Four metres from the lamp it is less than what it is next to it.
+///     assert!(floor.tolerance(&tolerance) < tolerance.constant + tolerance.most);
 /// }
 /// # Ok::<(), shadowfit::InputError>(())
 /// ```

@@ -59,13 +59,13 @@ fn lights_inside_the_scene_have_a_map_a_cube_or_a_reason() {
     for run in &runs {
         match (verdict(run), run.run.technique.has_faces()) {
             (Some(verdict), has_faces) => {
-                // A lamp that hangs in view has R reach to its near distance, a thousandth of the scene off, where depths
-                // are noisy in f32. The bias follows that noise, so that it costs nothing farther off.
+                // A lamp that hangs in view has R reach to its near distance, half of the way to what is next to it. The bias is
+                // no larger than f32 needs farther off, and creases and curved solids show what it does not cover.
                 let in_view = !run.case.starts_with("room");
                 let most = match (has_faces, in_view) {
                     (false, _) => 0.012,
                     (true, false) => 0.0012,
-                    (true, true) => 0.0019,
+                    (true, true) => 0.0025,
                 };
                 let counts = verdict.counts;
                 assert!(counts.fraction(counts.faults()) <= most, "{run}: {counts:?}");
@@ -172,8 +172,9 @@ fn a_warp_pays_where_the_near_plane_is_at_what_is_seen() {
     };
     let [uniform, psm] = [Technique::Uniform, Technique::Psm].map(|technique| of("at what is seen", technique));
     assert!(1.5 * psm.median < uniform.median && 2.0 * psm.p95 < uniform.p95, "uniform {uniform:?}, psm {psm:?}");
+    // A near plane in the air takes texels from it, and not so many that the uniform map would be better.
     let [uniform, psm] = [Technique::Uniform, Technique::Psm].map(|technique| of("in the air", technique));
-    assert!(uniform.median < psm.median, "uniform {uniform:?}, psm {psm:?}");
+    assert!(psm.median < uniform.median && uniform.median < 1.5 * psm.median, "uniform {uniform:?}, psm {psm:?}");
     // The best matrix minds the near plane, and is not lost in the air before it.
     for plane in ["in the air", "at what is seen"] {
         let [uniform, psm, best] = [Technique::Uniform, Technique::Psm, Technique::Best].map(|way| of(plane, way));

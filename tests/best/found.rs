@@ -19,6 +19,9 @@ const PARTS: [f64; 5] = [0.0, 1.0 / 9.0, 1.0 / 5.0, 1.0 / 3.0, 1.0 / 2.0];
 /// The worst side of a texel, in pixels, over points: of what the search found; `None` where nothing is left of it or f32 needs
 /// more of the uniform map besides.
 pub(super) fn of_search(focus: &Focus<'_>, map: &Map, points: &[DVec3]) -> Option<f64> {
+    if !is_served(focus) {
+        return None;
+    }
     let part = map.weakening();
     let uniform = *focus.fit(&map.settings().with_warp(Warp::Uniform)).map()?;
     // Other parts are what f32 needs, which was there when the map was compared.
@@ -35,6 +38,15 @@ pub(super) fn of_search(focus: &Focus<'_>, map: &Map, points: &[DVec3]) -> Optio
     Some(worst(focus, map, points, [x, y, w - uniform_w * part]))
 }
 
+/// Whether a map answers for all vertices of R: a light in a corner of what is visible has no place in its own map, and what is
+/// nearer than its near distance is cut off before the fit.
+fn is_served(focus: &Focus<'_>) -> bool {
+    let near = focus.light().near();
+    let is_served =
+        |point: &DVec3| focus.light().position().is_none_or(|position| position.distance(*point) >= near);
+    focus.visible().vertices().iter().all(is_served)
+}
+
 /// The same of a map as it is.
 pub(super) fn of_form(focus: &Focus<'_>, map: &Map, points: &[DVec3]) -> f64 {
     worst(focus, map, points, rows(map))
@@ -46,7 +58,8 @@ fn worst(focus: &Focus<'_>, map: &Map, points: &[DVec3], [x, y, w]: [DVec4; 3]) 
         let at = point.extend(1.0);
         DVec2::new(x.dot(at), y.dot(at)) / w.dot(at)
     };
-    let places = || focus.visible().vertices().to_vec().into_iter().map(place);
+    let visible = focus.visible();
+    let places = || visible.vertices().iter().copied().map(place);
     let (min, max) =
         places().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), place| (min.min(place), max.max(place)));
     let (width, height) = map.settings().map_sides();

@@ -21,7 +21,7 @@ fn eight_bits_are_steps_of_a_255th() {
     assert!((resolution - range / 255.0).abs() < 1e-9 * range, "{resolution} of {range}");
     // What f32 rounds is nothing to so coarse a step, and another map of any kind asks for the same.
     let bias = map.bias(format, 0.5).expect("a legal reach");
-    assert_eq!((bias.constant, bias.constant_alone(), bias.slope), (1, Some(2), 1.0625));
+    assert_eq!((bias.constant, bias.constant_alone(), bias.slope), (1, Some(2), 1.1875));
     assert!(bias.most < 0.01 * format.step(1.0), "{bias:?}");
 }
 

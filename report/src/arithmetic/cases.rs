@@ -23,8 +23,13 @@ pub(crate) struct Case {
 }
 
 impl Case {
-    /// None for scenes of lists, whose bounds are the crate's own choice.
+    /// None for scenes of lists, whose bounds are the crate's own choice, and for views that are cut by oblique planes, which the
+    /// textbook's clipper knows nothing of.
     fn new(view: View, light: Light, scene: &SceneParams) -> Option<Self> {
+        let upright = if view.far().is_finite() { 6 } else { 5 };
+        if view.planes().len() != upright {
+            return None;
+        }
         let cuts = match scene {
             SceneParams::Bounds { .. } => Vec::new(),
             SceneParams::Cut { planes, .. } => planes.iter().copied().map(plane).collect(),
@@ -59,7 +64,7 @@ pub(crate) fn random(count: usize) -> Vec<Case> {
         .collect()
 }
 
-/// The cases of the property tests, without scenes of lists, the same in every run.
+/// The cases of the property tests, without scenes of lists and oblique views, the same in every run.
 pub(crate) fn hard(count: usize) -> Vec<Case> {
     let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[11; 32]);
     let mut runner = TestRunner::new_with_rng(Config::default(), rng);
