@@ -181,6 +181,11 @@ pub(crate) struct Precision {
 }
 
 impl Precision {
+    /// Whether f32 leaves little to a warp.
+    pub(crate) fn is_short(&self) -> bool {
+        self.part > 0.5 * MOST_PRECISION
+    }
+
     /// The more of a texel f32 takes in the uniform map already, the less is left to a warp.
     ///
     /// f32 carries a place in a warped map by w's rounding, which is a part of w as large as its terms are over w. What it carries

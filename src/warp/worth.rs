@@ -35,9 +35,10 @@ struct Sample {
     weight: f64,
 }
 
-/// How far behind a caster a shadow begins, in texels, on a surface that the light meets at 45°: a texel's change of depth times
-/// what [`Map::bias`](crate::Map::bias) takes for the sampler's 2 × 2 texels.
-const BIAS: f64 = 2.0;
+/// What a texel's change of depth counts for beside its sides: 0.3 of how far behind a caster a shadow begins, which is 2.25 times that
+/// change with the sampler's 2 × 2 texels. Of all predictors of wrong pixels that were tried, the mean side of a texel and 0.3 of the
+/// bias goes with them best. The slope of the surface is taken to be 45°.
+const BIAS: f64 = 0.3 * 2.25;
 
 impl Samples {
     const ACROSS: usize = 3;

@@ -108,9 +108,9 @@ impl Sum {
     }
 }
 
-/// The default map against the uniform one: its shadows begin no more than a quarter farther behind their casters on the mean of
-/// the views, unless its texels are finer by more, in no kind of view is it worse than that in more than one of five and in all of them in no more than one
-/// of twelve, and no more shadowed points are lit.
+/// The default map against the uniform one. Its shadows begin no more than a quarter farther behind their casters on the mean of the
+/// views, unless its texels are finer by more; single views are worse than that, no more than one of four of any kind and one of seven
+/// of all. No more shadowed points are lit.
 #[test]
 fn shadows_begin_no_farther_behind_their_casters() {
     let mut all = Sum::default();
@@ -136,7 +136,7 @@ fn shadows_begin_no_farther_behind_their_casters() {
                         sum.worse, sum.views, sum.shadowed, sum.lost[1], sum.lost[0]
                     );
                     assert!(sum.views == 0 || farther <= finer.max(1.25), "{name}: {farther}, {finer}");
-                    assert!(sum.worse * 5 <= sum.views, "{name}: {} of {}", sum.worse, sum.views);
+                    assert!(sum.worse * 4 <= sum.views, "{name}: {} of {}", sum.worse, sum.views);
                     all.views += sum.views;
                     all.worse += sum.worse;
                     all.shadowed += sum.shadowed;
@@ -149,6 +149,6 @@ fn shadows_begin_no_farther_behind_their_casters() {
     }
     let Sum { views, worse, shadowed, lost: [uniform, best], .. } = all;
     println!("worse in {worse} of {views} views; lit of {shadowed} in shadow {best}, uniform {uniform}");
-    assert!(worse * 12 <= views, "worse in {worse} of {views} views");
+    assert!(worse * 7 <= views, "worse in {worse} of {views} views");
     assert!(best <= uniform, "{best} of {shadowed} in shadow are lit, with the uniform map {uniform}");
 }
