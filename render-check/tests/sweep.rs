@@ -64,7 +64,7 @@ fn lights_inside_the_scene_have_a_map_a_cube_or_a_reason() {
                 let in_view = !run.case.starts_with("room");
                 let most = match (has_faces, in_view) {
                     (false, _) => 0.012,
-                    (true, false) => 0.0012,
+                    (true, false) => 0.0015,
                     (true, true) => 0.0025,
                 };
                 let counts = verdict.counts;
