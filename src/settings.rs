@@ -89,10 +89,10 @@ impl Warp {
 ///
 /// | | sun | lamp | spot | times as long |
 /// |---|---|---|---|---|
-/// | `ClosedForms` | 1.26, 2.9 | 1.45, 4.0 | 1.34, 2.7 | 3 |
-/// | `Rough` | 1.014, 1.14 | 1.029, 1.13 | 1.031, 1.14 | 5 to 6 |
-/// | `Good` | 1.001, 1.011 | 1.002, 1.013 | 1.002, 1.019 | 12 to 17 |
-/// | `Thorough` | 1.001, 1.006 | 1.001, 1.005 | 1.002, 1.011 | 17 to 26 |
+/// | `ClosedForms` | 1.21, 1.9 | 1.36, 2.6 | 1.28, 1.7 | 3 |
+/// | `Rough` | 1.016, 1.13 | 1.020, 1.11 | 1.021, 1.13 | 5 to 6 |
+/// | `Good` | 1.001, 1.007 | 1.002, 1.020 | 1.002, 1.018 | 12 to 17 |
+/// | `Thorough` | 1.001, 1.006 | 1.001, 1.003 | 1.001, 1.014 | 17 to 26 |
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Effort {
