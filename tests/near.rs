@@ -1,5 +1,7 @@
 //! Near distances of lights at a position: what casters allow, and what smaller ones cost.
 
+#![cfg(feature = "std")]
+
 use shadowfit::glam::Vec3;
 use shadowfit::{Aabb, Budget, CubeFace, Focus, Light, Object, Objects, Reason, Scene, Settings, View, Warp, plan};
 

@@ -5,6 +5,7 @@
 //! - `lamps`: faces of cubes far from the origin, and a plan of a thousand lamps.
 //! - `place`: the towns, and what is seen in them by rays.
 
+#![cfg(feature = "std")]
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
 mod lamps;
