@@ -188,7 +188,6 @@ pub(crate) fn fit_visible(
             origin,
             least: LEAST_PART * view.half_height(eye_depth.max),
             precision: Precision::new(&rays, visible.positions(), origin, &along, settings.sides()),
-            samples: &Samples::new(focus, &rays, &on_chart, along.middle(), settings.sides()),
         };
         let perspective = || perspective::propose(&seen, &camera.rows(view));
         match settings.warp() {
@@ -197,7 +196,9 @@ pub(crate) fn fit_visible(
             Warp::LightSpace => light_space::propose(&seen),
             Warp::Trapezoidal => trapezoidal::propose(&seen),
             Warp::Best(effort) => {
-                let chosen = best::choose(&seen, visible.edges(), perspective(), effort, settings, before);
+                let samples = Samples::new(focus, &rays, &on_chart, along.middle(), settings.sides());
+                let (edges, perspective) = (visible.edges(), perspective());
+                let chosen = best::choose(&seen, edges, perspective, effort, settings, before, &samples);
                 switched = chosen.switched;
                 Ok(chosen.proposed)
             }

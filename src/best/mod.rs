@@ -17,7 +17,7 @@ use crate::homography::Frame;
 use crate::map::Map;
 use crate::rays::{Functional, Rays};
 use crate::settings::{Effort, Settings};
-use crate::warp::{MAX_RATIO, NEAREST, Proposed, Visible, light_space, trapezoidal};
+use crate::warp::{MAX_RATIO, NEAREST, Proposed, Samples, Visible, light_space, trapezoidal};
 use core::f64::consts::FRAC_1_SQRT_2;
 use draft::{Change, Draft, Rows};
 use glam::{DMat2, DVec2, DVec3};
@@ -32,7 +32,8 @@ pub(crate) struct Chosen {
 }
 
 /// Chooses the best map for what is visible, whose edges are given as well, from the closed forms on, of which the perspective
-/// one may be that of a camera moved back. `before` is the map of the frame before, if there is one.
+/// one may be that of a camera moved back. `before` is the map of the frame before, if there is one;
+/// `samples` stand for what is seen.
 pub(crate) fn choose<P: Iterator<Item = DVec3> + Clone>(
     visible: &Visible<'_, P>,
     edges: impl Iterator<Item = (DVec3, DVec3)>,
@@ -40,6 +41,7 @@ pub(crate) fn choose<P: Iterator<Item = DVec3> + Clone>(
     effort: Effort,
     settings: &Settings,
     before: Option<&Map>,
+    samples: &Samples,
 ) -> Chosen {
     let Visible { rays, middle, .. } = *visible;
     let (width, height) = settings.map_sides();
@@ -88,7 +90,7 @@ pub(crate) fn choose<P: Iterator<Item = DVec3> + Clone>(
         (Some(stays), Some(moves)) if moves.0.worst > stays.0.worst * WORTH_MOVING => stays,
         (_, moves) => moves.unwrap_or((closed, form)),
     };
-    let proposed = mixed(visible, proposed, already);
+    let proposed = mixed(visible, proposed, already, samples);
     let rows = proposed.frame.rows(middle, &proposed.warp);
     Chosen { proposed, switched: drawn.is_some_and(|before| search.jumps(&before, &rows)) }
 }
@@ -114,6 +116,7 @@ fn mixed<P: Iterator<Item = DVec3> + Clone>(
     visible: &Visible<'_, P>,
     proposed: Proposed,
     before: Option<f64>,
+    samples: &Samples,
 ) -> Proposed {
     let of = |kappa: f64| {
         if kappa.is_finite() {
@@ -132,7 +135,7 @@ fn mixed<P: Iterator<Item = DVec3> + Clone>(
             f64::INFINITY => WORTH_NO_WARP,
             _ => WORTH_MIXING,
         };
-        let score = visible.score(&candidate) - stays + handicap;
+        let score = visible.score(&candidate, samples) - stays + handicap;
         if score < best.0 {
             best = (score, candidate);
         }

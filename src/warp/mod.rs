@@ -37,8 +37,6 @@ pub(crate) struct Visible<'a, P> {
     pub(crate) origin: DVec3,
     /// The length that is too small to see.
     pub(crate) least: f64,
-    /// Points that stand for what is seen of it.
-    pub(crate) samples: &'a Samples,
     /// How large w has to be for f32.
     pub(crate) precision: Precision,
 }
@@ -82,8 +80,8 @@ impl<P: Iterator<Item = DVec3> + Clone> Visible<'_, P> {
     }
 
     /// How a map compares with the uniform one, see [`Samples::score`].
-    pub(crate) fn score(&self, proposed: &Proposed) -> f64 {
-        self.samples.score(&self.fitted(proposed.frame.rows(self.middle, &proposed.warp)))
+    pub(crate) fn score(&self, proposed: &Proposed, samples: &Samples) -> f64 {
+        samples.score(&self.fitted(proposed.frame.rows(self.middle, &proposed.warp)))
     }
 
     /// The warp `c + κ·w`, with w that of the uniform map and κ ≥ 0 the least number for which, at every vertex of R and at
