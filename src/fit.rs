@@ -177,7 +177,7 @@ pub(crate) fn fit_visible(
     };
     let mut switched = false;
     let proposed = {
-        let seen = warp::Visible {
+        let seen = || warp::Visible {
             view,
             l: light.homogeneous(),
             rays: &rays,
@@ -189,15 +189,15 @@ pub(crate) fn fit_visible(
             least: LEAST_PART * view.half_height(eye_depth.max),
             precision: Precision::new(&rays, visible.positions(), origin, &along, settings.sides()),
         };
-        let perspective = || perspective::propose(&seen, &camera.rows(view));
         match settings.warp() {
             Warp::Uniform | Warp::Stable => refusal.map_or(Ok(Proposed::UNIFORM), Err),
-            Warp::Perspective => Ok(perspective()),
-            Warp::LightSpace => light_space::propose(&seen),
-            Warp::Trapezoidal => trapezoidal::propose(&seen),
+            Warp::Perspective => Ok(perspective::propose(&seen(), &camera.rows(view))),
+            Warp::LightSpace => light_space::propose(&seen()),
+            Warp::Trapezoidal => trapezoidal::propose(&seen()),
             Warp::Best(effort) => {
                 let samples = Samples::new(focus, &rays, &on_chart, along.middle(), settings.sides());
-                let (edges, perspective) = (visible.edges(), perspective());
+                let seen = seen();
+                let (edges, perspective) = (visible.edges(), perspective::propose(&seen, &camera.rows(view)));
                 let chosen = best::choose(&seen, edges, perspective, effort, settings, before, &samples);
                 switched = chosen.switched;
                 Ok(chosen.proposed)

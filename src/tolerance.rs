@@ -25,16 +25,17 @@ const MOST_OF_RANGE: f64 = 2.0;
 /// The four numbers, in this order, are what the shader functions of the `wgsl` feature take ([`Self::to_array`]).
 ///
 /// ```
-/// use shadowfit::{DepthFormat, Light, Scene, Settings, TangentPlane, View, fit};
+/// use shadowfit::{DepthFormat, Light, Scene, Settings, TangentPlane, View, Warp, fit};
 ///
 /// let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 50.0)?;
 /// let lamp = Light::spot((0.0, 4.0, -5.0), (0.0, -1.0, -0.2), 0.7, 0.01, 30.0)?;
 /// let scene = Scene::from_box((-20.0, 0.0, -20.0), (20.0, 5.0, 20.0))?;
-/// if let Some(map) = fit(&view, &lamp, &scene, &Settings::default()).map() {
+/// let settings = Settings::default().with_warp(Warp::Uniform);
+/// if let Some(map) = fit(&view, &lamp, &scene, &settings).map() {
 ///     let tolerance = map.comparison_tolerance(DepthFormat::Float32, 1.0)?; // 2 × 2 texels
 ///     let floor = TangentPlane::new(map, (0.0, 0.0, -5.0).into(), (0.0, 1.0, 0.0).into()).expect("in the map");
-///     // Four metres from the lamp it is less than what it is next to it.
-///     assert!(floor.tolerance(&tolerance) < tolerance.constant + tolerance.most);
+///     // Four metres from the lamp it is a sixth of what it is a centimetre from it.
+///     assert!(floor.tolerance(&tolerance) < 0.2 * tolerance.most);
 /// }
 /// # Ok::<(), shadowfit::InputError>(())
 /// ```

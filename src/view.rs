@@ -301,7 +301,8 @@ impl View {
     /// What a place in the image, (0, 0) to (1, 1), shows at depth 0, and the step from there to depth 1.
     pub(crate) fn ray(&self, place: DVec2) -> (DVec3, DVec3) {
         let place = self.frame_min + (self.frame_max - self.frame_min) * place;
-        let across = self.right * place.x + self.up * place.y;
+        let [right, up] = self.steps();
+        let across = right * place.x + up * place.y;
         match self.lens {
             Lens::Perspective => (self.eye, self.forward + across),
             Lens::Orthographic => (self.eye + across, self.forward),

@@ -2,6 +2,7 @@
 
 use super::in_window;
 use crate::bounds::{Rectangle, least, most};
+use crate::convex::Plane;
 use crate::focus::Focus;
 use crate::rays::{Functional, Rays};
 use glam::DVec2;
@@ -10,8 +11,7 @@ use glam::DVec2;
 ///
 /// The vertices of R, which a window has to hold, are a poor sample: half of them lie on the near plane, in the air, where a warp is
 /// finest. Surfaces lie somewhere along the rays of the image, most often towards their ends: a few of these rays are cut by S and
-/// L, and three points taken of each, at the end and at a half and a quarter of the way. More rays make no difference
-/// (`cargo test --test precision`).
+/// L, and three points taken of each, at the end and at a half and a quarter of the way. An oblique near plane cuts them too.
 pub(crate) struct Samples {
     samples: [Sample; Self::ACROSS * Self::DOWN * Self::DEPTHS.len()],
     len: usize,
@@ -64,7 +64,7 @@ impl Samples {
             );
             let (from, step) = view.ray(place);
             let (mut near, mut far) = (view.near(), view.far());
-            focus.for_each_plane(|plane| {
+            let mut cut = |plane: Plane| {
                 let (at, change) = (plane.at(from), plane.normal.dot(step));
                 // Where it vanishes the ray is inside for all depths or for none.
                 let depth = -at / change;
@@ -75,7 +75,9 @@ impl Samples {
                 } else if at < 0.0 {
                     far = near;
                 }
-            });
+            };
+            focus.for_each_plane(&mut cut);
+            [view.near_cut, view.far_cut].into_iter().flatten().for_each(cut);
             for part in Self::DEPTHS {
                 let depth = near + (far - near) * part;
                 let weight = (far - near) / (far.abs() + near.abs());
