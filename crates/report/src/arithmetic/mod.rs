@@ -9,7 +9,7 @@ mod number;
 mod plain;
 mod polyhedron;
 mod setups;
-#[path = "../../../examples/stability/tables/mod.rs"]
+#[path = "../../../../examples/stability/tables/mod.rs"]
 mod stability;
 mod truth;
 mod turns;

@@ -45,8 +45,8 @@ pub mod statistics;
 pub mod timing;
 pub mod write;
 
-#[path = "../../tests/arbitrary/mod.rs"]
+#[path = "../../../tests/arbitrary/mod.rs"]
 pub(crate) mod arbitrary;
 pub(crate) mod oracle;
-#[path = "../../tests/outdoors/mod.rs"]
+#[path = "../../../tests/outdoors/mod.rs"]
 pub(crate) mod outdoors;

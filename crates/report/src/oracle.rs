@@ -2,17 +2,17 @@
 
 #![allow(dead_code, reason = "the oracle's own tests use the rest")]
 
-#[path = "../../tests/oracle/body.rs"]
+#[path = "../../../tests/oracle/body.rs"]
 pub(crate) mod body;
-#[path = "../../tests/oracle/cone.rs"]
+#[path = "../../../tests/oracle/cone.rs"]
 pub(crate) mod cone;
-#[path = "../../tests/oracle/distance.rs"]
+#[path = "../../../tests/oracle/distance.rs"]
 pub(crate) mod distance;
-#[path = "../../tests/oracle/exact.rs"]
+#[path = "../../../tests/oracle/exact.rs"]
 pub(crate) mod exact;
-#[path = "../../tests/oracle/homogeneous.rs"]
+#[path = "../../../tests/oracle/homogeneous.rs"]
 pub(crate) mod homogeneous;
-#[path = "../../tests/oracle/hull.rs"]
+#[path = "../../../tests/oracle/hull.rs"]
 pub(crate) mod hull;
-#[path = "../../tests/oracle/scalar.rs"]
+#[path = "../../../tests/oracle/scalar.rs"]
 pub(crate) mod scalar;

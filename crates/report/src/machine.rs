@@ -53,7 +53,7 @@ impl Machine {
 
 /// The version of the crate, from its manifest: it has no constant for it.
 fn version() -> &'static str {
-    let line = include_str!("../../Cargo.toml").lines().find_map(|line| line.strip_prefix("version = "));
+    let line = include_str!("../../../Cargo.toml").lines().find_map(|line| line.strip_prefix("version = "));
     line.unwrap_or_default().trim_matches('"')
 }
 
