@@ -8,7 +8,9 @@ mod cases;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use shadowfit::glam::{DMat4, DVec3, Mat4, Vec3};
-use shadowfit::{Aabb, Effort, Focus, Form, InputError, Light, Outcome, Scene, Settings, Warp, classify, fit};
+use shadowfit::{
+    Aabb, Effort, Focus, FocusForm, InputError, Light, Outcome, Scene, Settings, Warp, fit, warp::classify,
+};
 use std::hint::black_box;
 
 /// Each step on its own, and the whole fit.
@@ -18,9 +20,9 @@ fn steps(criterion: &mut Criterion) -> Result<(), InputError> {
         let mut group = criterion.benchmark_group(name);
         let focus = || Focus::new(black_box(&view), black_box(&light), &scene);
         group.bench_function("class", |b| b.iter(|| classify(black_box(&view), black_box(&light))));
-        group.bench_function("R", |b| b.iter(|| focus().visible()));
-        group.bench_function("H as the paper has it", |b| b.iter(|| focus().body(Form::Paper)));
-        group.bench_function("H tight", |b| b.iter(|| focus().body(Form::Tight)));
+        group.bench_function("R", |b| b.iter(|| focus().receiver_volume()));
+        group.bench_function("H as the paper has it", |b| b.iter(|| focus().caster_volume(FocusForm::ViewHull)));
+        group.bench_function("H tight", |b| b.iter(|| focus().caster_volume(FocusForm::ReceiverHull)));
         for (map, settings) in cases::settings() {
             group.bench_function(format!("fit, {map}"), |b| {
                 b.iter(|| fit(black_box(&view), black_box(&light), &scene, &settings));
@@ -30,14 +32,14 @@ fn steps(criterion: &mut Criterion) -> Result<(), InputError> {
         let best = Settings::default().with_warp(Warp::Best(Effort::Good));
         if let Outcome::Map(before) = whole.fit(&best) {
             group.bench_function("fit, best, from the frame before", |b| {
-                b.iter(|| focus().fit_from(black_box(&before), &best));
+                b.iter(|| focus().fit_warm(black_box(&before), &best));
             });
         }
         if let Outcome::Map(map) = whole.fit(&best) {
             group.bench_function("report", |b| b.iter(|| map.report(black_box(&whole))));
             group.bench_function("worst and mean aliasing", |b| b.iter(|| map.aliasing_over(black_box(&whole))));
         }
-        group.bench_function("limit", |b| b.iter(|| whole.limit(black_box(&best))));
+        group.bench_function("limit", |b| b.iter(|| whole.aliasing_lower_bound(black_box(&best))));
         group.finish();
     }
     if let Some(corners) = view.corners() {
@@ -52,7 +54,7 @@ fn steps(criterion: &mut Criterion) -> Result<(), InputError> {
 fn culling(criterion: &mut Criterion) -> Result<(), InputError> {
     let (view, scene) = (cases::view()?, cases::scene()?);
     let sun = Light::directional((0.3, 1.0, 0.4))?;
-    let body = Focus::new(&view, &sun, &scene).body(Form::Tight);
+    let body = Focus::new(&view, &sun, &scene).caster_volume(FocusForm::ReceiverHull);
     let (culler, boxes) = (body.culler(), boxes(10_000));
     let uniform = Settings::default().with_warp(Warp::Uniform);
     let mut meets = vec![false; boxes.len()];
@@ -60,7 +62,7 @@ fn culling(criterion: &mut Criterion) -> Result<(), InputError> {
     group.throughput(Throughput::Bytes(size_of_val(boxes.as_slice()) as u64));
     group.bench_function("in bulk", |b| b.iter(|| culler.boxes(black_box(&boxes), &mut meets)));
     group.bench_function("one by one", |b| {
-        b.iter(|| boxes.iter().filter(|one| body.meets_box(one.min, one.max)).count());
+        b.iter(|| boxes.iter().filter(|one| body.intersects_aabb(one.min, one.max)).count());
     });
     group.bench_function("copied, for comparison", |b| b.iter(|| black_box(&boxes).to_vec()));
     group.bench_function("as casters and receivers of a fit", |b| {

@@ -12,7 +12,7 @@
 mod cases;
 
 use gungraun::{library_benchmark, library_benchmark_group, main};
-use shadowfit::{Body, Focus, Form, Light, Outcome, Scene, Settings, View, fit};
+use shadowfit::{Focus, FocusForm, Light, Outcome, Scene, Settings, View, fit, focus::ConvexBody};
 use std::hint::black_box;
 
 /// A view, a light, a scene and settings.
@@ -62,8 +62,8 @@ fn whole_fit((view, light, scene, settings): Case) -> Outcome {
 #[bench::directional(case(0, 0))]
 #[bench::point(case(1, 0))]
 #[bench::spot(case(2, 0))]
-fn body_of_the_paper((view, light, scene, _): Case) -> Body {
-    Focus::new(black_box(&view), black_box(&light), black_box(&scene)).body(Form::Paper)
+fn body_of_the_paper((view, light, scene, _): Case) -> ConvexBody {
+    Focus::new(black_box(&view), black_box(&light), black_box(&scene)).caster_volume(FocusForm::ViewHull)
 }
 
 library_benchmark_group!(name = fits, benchmarks = [whole_fit, body_of_the_paper]);

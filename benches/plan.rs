@@ -7,7 +7,11 @@ use glam::{DVec3, Vec3};
 use rand::rngs::StdRng;
 use rand::{RngExt as _, SeedableRng as _};
 use shadowfit::glam;
-use shadowfit::{Aabb, Budget, InputError, Light, Object, Objects, Settings, Solidity, Surface, View, plan};
+use shadowfit::{
+    Aabb, InputError, Light, Settings, View,
+    mesh::Solidity,
+    plan::{Budget, Object, Objects, Surface, plan},
+};
 use std::hint::black_box;
 
 /// A town of a square kilometre.
@@ -21,7 +25,7 @@ fn objects(count: usize) -> Vec<Object> {
         let size = Vec3::new(rng.random_range(1.0..12.0), rng.random_range(1.0..20.0), rng.random_range(1.0..12.0));
         let min = Vec3::new(rng.random_range(-HALF..HALF), 0.0, rng.random_range(-HALF..HALF));
         let surface =
-            if rng.random_bool(0.7) { Surface::Mesh(Solidity::Solid) } else { Surface::Mesh(Solidity::Open) };
+            if rng.random_bool(0.7) { Surface::Mesh(Solidity::Watertight) } else { Surface::Mesh(Solidity::Open) };
         Object { surface, triangles: 300, ..Object::new(Aabb::new(min, min + size)) }
     }));
     objects

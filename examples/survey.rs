@@ -12,7 +12,7 @@ mod outdoors;
 use outdoors::Kind;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
-use shadowfit::{Effort, Focus, Form, Settings, Shift, Warp};
+use shadowfit::{Effort, Focus, FocusForm, Settings, Warp, warp::Shift};
 
 /// Views that are drawn for each kind of light.
 const VIEWS: usize = 3_000;
@@ -23,8 +23,8 @@ fn main() {
     let maps = [
         ("uniform", settings.with_warp(Warp::Uniform)),
         ("perspective, unshifted", psm.with_shift(Shift::None)),
-        ("perspective, by paper's H", psm.with_shift(Shift::Back(Form::Paper))),
-        ("perspective, by tight H", psm.with_shift(Shift::Back(Form::Tight))),
+        ("perspective, by paper's H", psm.with_shift(Shift::Back(FocusForm::ViewHull))),
+        ("perspective, by tight H", psm.with_shift(Shift::Back(FocusForm::ReceiverHull))),
         ("light-space", settings.with_warp(Warp::LightSpace)),
         ("trapezoidal", settings.with_warp(Warp::Trapezoidal)),
         ("best of closed forms", settings.with_warp(Warp::Best(Effort::ClosedForms))),
@@ -41,7 +41,7 @@ fn main() {
             let (view, light) = (outdoors::view(&mut random), kind.light(&mut random));
             let focus = Focus::new(&view, &light, &scene);
             let aliasing = |settings: &Settings| Some(focus.fit(settings).map()?.report(&focus).aliasing);
-            let limit = focus.limit(&settings);
+            let limit = focus.aliasing_lower_bound(&settings);
             let Some(uniform) = aliasing(&maps[0].1) else { continue };
             for (ratios, (_, settings)) in ratios.iter_mut().zip(&maps) {
                 if let Some(aliasing) = aliasing(settings) {

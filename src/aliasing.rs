@@ -1,14 +1,14 @@
 //! The aliasing of a map over all that is visible: the worst and the mean.
 
 use crate::bounds::most;
-use crate::convex::{Body, Plane, Polyhedron};
+use crate::convex::{ConvexBody, Plane, Polyhedron};
 use crate::focus::Focus;
 use crate::integral::{Fineness, Grading, dimension, over, triangles};
-use crate::map::Map;
+use crate::map::ShadowMap;
 use crate::scene::{Aabb, Region};
 use glam::{DVec2, DVec3};
 
-/// The aliasing of a map over a body or several, see [`Map::aliasing`]; infinite where part of it lies outside of the map.
+/// The aliasing of a map over a body or several, see [`ShadowMap::aliasing`]; infinite where part of it lies outside of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Aliasing {
@@ -20,13 +20,13 @@ pub struct Aliasing {
     /// What it is at no point more than: 1 + 2⁻¹⁰ of the worst, and where that would take too long to find, as over a floor
     /// that has much the same aliasing all over, 1 + 2⁻⁴ of it or more.
     #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
-    pub at_most: f64,
+    pub upper_bound: f64,
     /// The mean.
     #[cfg_attr(feature = "serde", serde(with = "crate::infinity"))]
     pub mean: f64,
 }
 
-impl Map {
+impl ShadowMap {
     /// The worst aliasing over R, anywhere in it, and the mean over its volume, or over the area of a flat R, the length
     /// of a segment. `None` when nothing is visible. `focus` is the one that the map was fitted from, or one of the same
     /// light whose R is a part of that: of a view that is [narrowed](crate::View::narrowed) to what a depth read-back
@@ -100,11 +100,11 @@ impl Map {
 
 impl Focus<'_> {
     /// V ∩ L ∩ a box.
-    fn visible_part(&self, part: &Aabb) -> Body {
+    fn visible_part(&self, part: &Aabb) -> ConvexBody {
         let (mut body, mut planes) = (Polyhedron::EMPTY, [Plane::ONE; Polyhedron::MAX_PLANES]);
         let region = Region::Box { min: part.min.as_dvec3(), max: part.max.as_dvec3() };
         self.cut_visible_part(&mut body, &region, |plane, id| planes[usize::from(id)] = plane);
-        Body::new(&body, planes)
+        ConvexBody::new(&body, planes)
     }
 }
 
@@ -123,10 +123,10 @@ struct Corner {
 
 /// The search for the worst.
 struct Survey<'a> {
-    map: &'a Map,
+    map: &'a ShadowMap,
     worst: f64,
     worst_at: Option<DVec3>,
-    at_most: f64,
+    upper_bound: f64,
 }
 
 /// How much more than the worst that was found there may be: first what is cheap to have, then what is wanted.
@@ -136,8 +136,8 @@ const TOLERANCES: [f64; 2] = [1.0 + 1.0 / 16.0, 1.0 + 1.0 / 1024.0];
 const HALVED: u32 = 1 << 12;
 
 impl<'a> Survey<'a> {
-    const fn new(map: &'a Map) -> Self {
-        Self { map, worst: 0.0, worst_at: None, at_most: 0.0 }
+    const fn new(map: &'a ShadowMap) -> Self {
+        Self { map, worst: 0.0, worst_at: None, upper_bound: 0.0 }
     }
 
     /// A corner, which may be the worst so far.
@@ -155,7 +155,7 @@ impl<'a> Survey<'a> {
     }
 
     /// Searches a body for the worst.
-    fn search(&mut self, body: &Body) {
+    fn search(&mut self, body: &ConvexBody) {
         // The vertices first: with much found, little is left to search.
         for &point in body.vertices() {
             self.visit(point);
@@ -174,7 +174,7 @@ impl<'a> Survey<'a> {
                 break;
             }
         }
-        self.at_most = most(self.at_most, bounds);
+        self.upper_bound = most(self.upper_bound, bounds);
     }
 
     /// Halves a triangle until there can be no more in it than was found, but for the tolerance. Returns the bound of what
@@ -210,25 +210,25 @@ impl<'a> Survey<'a> {
     }
 
     /// The integral of aliasing over a body in so many dimensions, and that of 1.
-    fn integral(&self, body: &Body, dimension: usize, fineness: Fineness) -> (f64, f64) {
+    fn integral(&self, body: &ConvexBody, dimension: usize, fineness: Fineness) -> (f64, f64) {
         let size = body.bounds().map_or(0.0, |(min, max)| (max - min).length());
         let grading = Grading::new(&self.map.view, self.map.light.position(), size, fineness);
         over(body, dimension, &grading, |point| aliasing(self.map, point))
     }
 
     fn found(&self, mean: f64) -> Option<Aliasing> {
-        let &Self { worst, worst_at, at_most, .. } = self;
-        worst_at.map(|worst_at| Aliasing { worst, worst_at, at_most, mean })
+        let &Self { worst, worst_at, upper_bound, .. } = self;
+        worst_at.map(|worst_at| Aliasing { worst, worst_at, upper_bound, mean })
     }
 }
 
 /// The aliasing at a point, which may be before the near plane by rounding, where depth may be anything.
-fn aliasing(map: &Map, point: DVec3) -> f64 {
+fn aliasing(map: &ShadowMap, point: DVec3) -> f64 {
     map.footprint(point).map_or(f64::INFINITY, |texel| texel.longest() / pixel(map, point))
 }
 
 /// The side of a pixel there.
-fn pixel(map: &Map, point: DVec3) -> f64 {
+fn pixel(map: &ShadowMap, point: DVec3) -> f64 {
     let view = &map.view;
     2.0 * view.half_height(most(view.depth(point), view.near())) / f64::from(map.settings.image_height())
 }
@@ -287,7 +287,7 @@ mod tests {
     use proptest::test_runner::RngSeed;
 
     /// A map for any light in front of a camera, with its rows for x, y and w mixed: any matrix for that light.
-    fn mixed(light: &Light, high: DVec3, mix: [[f64; 3]; 2], slope: [f64; 2]) -> Option<(Map, Body)> {
+    fn mixed(light: &Light, high: DVec3, mix: [[f64; 3]; 2], slope: [f64; 2]) -> Option<(ShadowMap, ConvexBody)> {
         let view =
             View::perspective((0.0, 2.0, 0.0), (0.3, -0.2, -1.0), (0.0, 1.0, 0.0), 1.2, 1.6, 0.5, 60.0).ok()?;
         let scene = Scene::from_box((-20.0, -1.0, -40.0), high).ok()?;
@@ -297,7 +297,7 @@ mod tests {
         let row = |[a, b, c]: [f64; 3]| x * a + y * b + w * c;
         // |x| and |y| are at most w, so that this is positive.
         map.rows = [row(mix[0]), row(mix[1]), z, w + (x * slope[0] + y * slope[1]) * 0.499];
-        Some((map, focus.visible()))
+        Some((map, focus.receiver_volume()))
     }
 
     fn lights() -> impl Strategy<Value = Light> {
@@ -327,11 +327,11 @@ mod tests {
         map.rows = [Plane::ONE, (x - Plane::ONE) * 1e6, map.rows[2], c];
         let found = map.aliasing_over(&focus).unwrap();
         let at_vertices =
-            focus.visible().vertices().iter().map(|&end| map.aliasing(end).unwrap()).fold(0.0, f64::max);
+            focus.receiver_volume().vertices().iter().map(|&end| map.aliasing(end).unwrap()).fold(0.0, f64::max);
         assert!(found.worst > 5.0 * at_vertices, "{found:?}, {at_vertices}");
         for step in 0..=1000 {
             let there = map.aliasing(DVec3::new(0.0, 0.0, -0.1 - 9.9 * f64::from(step) / 1000.0)).unwrap();
-            assert!(there <= found.at_most, "{there}, {found:?}");
+            assert!(there <= found.upper_bound, "{there}, {found:?}");
         }
     }
 
@@ -370,7 +370,7 @@ mod tests {
                     / parts.iter().sum::<f64>();
                 let there = map.aliasing(point).unwrap();
                 // The determinant of two rows that are 1e-6 from each other, and so aliasing, keeps ten digits.
-                prop_assert!(there <= found.at_most * (1.0 + 1e-9), "{there} at {point}, {found:?}");
+                prop_assert!(there <= found.upper_bound * (1.0 + 1e-9), "{there} at {point}, {found:?}");
             }
         }
 

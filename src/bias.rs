@@ -1,22 +1,22 @@
 //! The bias that a fitted map needs: with it no plane shadows itself, and no more is added than that takes.
 
 use crate::error::{Expected, InputError, check};
-use crate::map::Map;
-use crate::offset::Offset;
+use crate::map::ShadowMap;
+use crate::offset::ReceiverOffset;
 use crate::quality::DepthFormat;
 use crate::rounding::MapNoise;
 use crate::settings::Settings;
 use glam::DVec3;
 
-/// What is added to depth so that no plane shadows itself ([`Map::bias`]).
+/// What is added to depth so that no plane shadows itself ([`ShadowMap::bias`]).
 ///
 /// # Use
 ///
-/// `constant` and `slope` go to the rasteriser that draws casters, as they are: they have the sign of the map's clip space, which is
+/// `constant` and `slope_scale` go to the rasteriser that draws casters, as they are: they have the sign of the map's clip space, which is
 /// away from the light, and negative where depth is reversed. `receiver` goes to the shadow test, through
-/// [`Map::texture_matrix_with`] or, in clip space, [`Map::matrix_with`].
+/// [`ShadowMap::receiver_matrix_with`] or, in clip space, [`ShadowMap::receiver_clip_matrix_with`].
 ///
-/// | | constant | slope | clamp |
+/// | | constant | slope_scale | clamp |
 /// |---|---|---|---|
 /// | wgpu, `DepthBiasState` | `constant` | `slope_scale` | 0 |
 /// | Vulkan, `vkCmdSetDepthBias` | `depthBiasConstantFactor` | `depthBiasSlopeFactor` | 0 |
@@ -24,10 +24,10 @@ use glam::DVec3;
 /// | Direct3D | `DepthBias` | `SlopeScaledDepthBias` | 0 |
 /// | a shader that writes depth, with m = max(\|dz/dx\|, \|dz/dy\|) | steps of the format | times m | |
 ///
-/// `constant` and, in most maps, `slope` depend on the format and the filter alone, which suits pipelines that they are
-/// compiled into: `slope` is the one for places that f32 carries by a 64th of a texel, or, where it carries them farther, one of the
+/// `constant` and, in most maps, `slope_scale` depend on the format and the filter alone, which suits pipelines that they are
+/// compiled into: `slope_scale` is the one for places that f32 carries by a 64th of a texel, or, where it carries them farther, one of the
 /// few that are 1.25, 1.5625, … times that. What changes from fit to fit is in the receiver's matrix, which is uploaded with every fit anyway. One
-/// who tests with [`Map::texture_matrix`] as it is takes [`Self::constant_alone`].
+/// who tests with [`ShadowMap::receiver_matrix`] as it is takes [`Self::constant_alone`].
 ///
 /// ```
 /// use shadowfit::{DepthFormat, Light, Scene, Settings, View, fit};
@@ -37,8 +37,8 @@ use glam::DVec3;
 /// let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
 /// if let Some(map) = fit(&view, &sun, &scene, &Settings::default()).map() {
 ///     let bias = map.bias(DepthFormat::Float32, 1.0)?; // a comparison sampler's 2 × 2 texels
-///     println!("constant {}, slope_scale {}", bias.constant, bias.slope);
-///     println!("upload {} for casters and {} for receivers", map.matrix(), map.texture_matrix_with(&bias.offset()));
+///     println!("constant {}, slope_scale {}", bias.constant, bias.slope_scale);
+///     println!("upload {} for casters and {} for receivers", map.caster_matrix(), map.receiver_matrix_with(&bias.offset()));
 /// }
 /// # Ok::<(), shadowfit::InputError>(())
 /// ```
@@ -55,7 +55,7 @@ use glam::DVec3;
 ///     ε(X) = α/w(X) + β
 /// ```
 ///
-/// ([`Map::depth_rounding`]; α and β come from the fit). On a plane 1/w is an affine function of the place, as depth is,
+/// ([`ShadowMap::depth_rounding`]; α and β come from the fit). On a plane 1/w is an affine function of the place, as depth is,
 /// and so is ε: where the corners of a triangle are off by ε each, points in it are off by no more than ε there, if a
 /// corner next to a lamp is off by a hundred times as much. Per texel 1/w changes by at most γ + (\|p\| + \|q\|)/−z·l, z
 /// the row of depth and l a light at a position, and by at most γ under a directional light (γ comes from the warp, 0 without
@@ -93,7 +93,7 @@ use glam::DVec3;
 /// so little that `receiver` takes it. In floating point it is a step at the triangle's largest depth, so that it covers
 /// the rounding of a stored value, which is relative too. It vanishes towards depth 0, where ε does not, so that **no
 /// number of units can cover ε**: at the near end of a map, or at the far end of a reversed one. That is why ε is the
-/// receiver's. Of it, what goes with 1/w is [`Self::relative`], as [`Offset::relative`] does, and the rest [`Self::receiver`].
+/// receiver's. Of it, what goes with 1/w is [`Self::relative`], as [`ReceiverOffset::relative`] does, and the rest [`Self::receiver`].
 ///
 /// # What it takes for granted
 ///
@@ -118,15 +118,15 @@ pub struct DepthBias {
     pub constant: i32,
     /// What multiplies the slope, the larger of depth's changes to the next texel, across and down: negative where depth is
     /// reversed.
-    pub slope: f32,
+    pub slope_scale: f32,
     /// What receivers are tested nearer to the light by all over the map, where the depth range is 1.
     pub receiver: f64,
-    /// What they are tested nearer by besides, as a part for [`Offset::relative`]: in depth it goes with 1/w.
+    /// What they are tested nearer by besides, as a part for [`ReceiverOffset::relative`]: in depth it goes with 1/w.
     pub relative: f64,
     /// The most that both take off the depth of anything visible and no nearer to the light than its near distance.
     pub most: f64,
-    /// How far f32 may carry a place that `slope` is enough for, in texels: [`Window::rounding`](crate::Window::rounding),
-    /// or what [`Map::place_rounding`] is away from a lamp.
+    /// How far f32 may carry a place that `slope_scale` is enough for, in texels: [`Window::rounding`](crate::map::Window::rounding),
+    /// or what [`ShadowMap::place_rounding`] is away from a lamp.
     pub places: f64,
 }
 
@@ -154,7 +154,7 @@ pub(crate) fn checked_reach(reach: f64) -> Result<f64, InputError> {
 /// What a rasteriser adds to depth away from the light, where the depth range is 1, a unit is so much, and depth changes so much
 /// to the next texel.
 pub(crate) fn away(bias: &DepthBias, unit: f64, slope: f64) -> f64 {
-    f64::from(bias.constant.saturating_abs()) * unit + f64::from(bias.slope.abs()) * slope
+    f64::from(bias.constant.saturating_abs()) * unit + f64::from(bias.slope_scale.abs()) * slope
 }
 
 /// How far f32 carries places, in texels, in most maps: they have one slope for a format and a filter.
@@ -208,10 +208,10 @@ pub(crate) fn stepped(slope: f64) -> f32 {
 }
 
 impl DepthBias {
-    /// The receiver's part, for [`Map::texture_matrix_with`].
+    /// The receiver's part, for [`ShadowMap::receiver_matrix_with`].
     #[must_use]
-    pub fn offset(&self) -> Offset {
-        Offset::of(self.relative, self.receiver)
+    pub fn offset(&self) -> ReceiverOffset {
+        ReceiverOffset::of(self.relative, self.receiver)
     }
 
     /// The constant that does without the receiver's part, with the sign of the map's clip space; `None` in floating point, where
@@ -229,7 +229,7 @@ impl DepthBias {
     }
 }
 
-impl Map {
+impl ShadowMap {
     /// The bias with which no plane shadows itself in this map.
     ///
     /// `reach` is how far from a point the middles of the texels lie that are compared for it, at most, across and down, in
@@ -260,7 +260,7 @@ impl Map {
         Ok(DepthBias {
             format,
             constant: away,
-            slope: one_of_few(stepped(usual.slope), slope) * away as f32,
+            slope_scale: one_of_few(stepped(usual.slope), slope) * away as f32,
             receiver,
             relative: over_w / to_light,
             most: receiver + over_w / least_w,

@@ -1,7 +1,7 @@
 //! Which casters to draw: boxes and spheres against a focus body.
 
-use crate::convex::{Body, Plane};
-use crate::focus::{Focus, Form, farthest_corner};
+use crate::convex::{ConvexBody, Plane};
+use crate::focus::{Focus, FocusForm, farthest_corner};
 use crate::light::Light;
 use crate::numbers::vector;
 use crate::scene::Aabb;
@@ -24,22 +24,26 @@ impl<'a> Focus<'a> {
     /// # Ok::<(), shadowfit::InputError>(())
     /// ```
     pub fn casters(&self) -> impl Iterator<Item = usize> + use<'a> {
-        let body = self.body(Form::Tight);
+        let body = self.caster_volume(FocusForm::ReceiverHull);
         let list = self.caster_list.filter(|_| !body.is_empty());
         let indices = 0..list.map_or(0, |boxes| boxes.len());
         indices.filter(move |&index| {
-            list.and_then(|boxes| boxes.get(index)).is_some_and(|one| body.meets_box(one.min, one.max))
+            list.and_then(|boxes| boxes.get(index)).is_some_and(|one| body.intersects_aabb(one.min, one.max))
         })
     }
 }
 
-impl Body {
+impl ConvexBody {
     /// Whether a box may meet the body.
     ///
     /// Never false for a box that does; sometimes true for one that does not, near an edge of the body. A box turned
     /// inside out meets nothing.
     #[must_use]
-    pub fn meets_box<F: Into<f64>, G: Into<f64>>(&self, min: impl Into<[F; 3]>, max: impl Into<[G; 3]>) -> bool {
+    pub fn intersects_aabb<F: Into<f64>, G: Into<f64>>(
+        &self,
+        min: impl Into<[F; 3]>,
+        max: impl Into<[G; 3]>,
+    ) -> bool {
         let Some((low, high)) = self.bounds() else { return false };
         // What matters of the box lies in the body's own; the planes are loose enough for corners of that.
         let (min, max) = (vector(min).max(low), vector(max).min(high));
@@ -51,7 +55,7 @@ impl Body {
     /// Never false for a ball that does; sometimes true for one that does not, near an edge of the body. A negative
     /// radius meets nothing.
     #[must_use]
-    pub fn meets_sphere<F: Into<f64>>(&self, centre: impl Into<[F; 3]>, radius: f64) -> bool {
+    pub fn intersects_sphere<F: Into<f64>>(&self, centre: impl Into<[F; 3]>, radius: f64) -> bool {
         let centre = vector(centre);
         let slack = 8.0 * f64::EPSILON * (centre.abs().element_sum() + radius);
         let inside = |plane: Plane| plane.normalized().at(centre) + radius + slack >= 0.0;
@@ -82,7 +86,7 @@ impl Body {
 
 /// A body made ready for testing many boxes or spheres in f32, several at a time.
 ///
-/// As [`Body::meets_box`] and [`Body::meets_sphere`], it errs on the side of drawing.
+/// As [`ConvexBody::intersects_aabb`] and [`ConvexBody::intersects_sphere`], it errs on the side of drawing.
 #[derive(Clone, Debug)]
 pub struct Culler {
     planes: [CullPlane; Self::MAX_PLANES],
@@ -183,7 +187,7 @@ impl Light {
     /// light, which has no near distance, and where no box is reached.
     ///
     /// A smaller near distance buys nothing: depth is hyperbolic, and the air next to the light takes most of its steps
-    /// ([`Map::depth_beside_light`](crate::Map::depth_beside_light)).
+    /// ([`ShadowMap::depth_beside_light`](crate::ShadowMap::depth_beside_light)).
     ///
     /// ```
     /// use shadowfit::{Aabb, Light};

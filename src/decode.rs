@@ -1,14 +1,14 @@
 //! What view and projection matrices encode, in any convention.
 
 use crate::clip_space::{ClipSpace, YAxis};
-use crate::error::{InputError, Problem, check};
+use crate::error::{InputError, InputErrorKind, check};
 use crate::frustum::{meet, rounding, rows};
 use crate::view::Lens;
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
 /// Refuses a matrix with an entry that is NaN or infinite.
 pub(crate) fn finite(field: &'static str, matrix: &DMat4) -> Result<(), InputError> {
-    if matrix.is_finite() { Ok(()) } else { check::fail(field, Problem::NotFinite) }
+    if matrix.is_finite() { Ok(()) } else { check::fail(field, InputErrorKind::NotFinite) }
 }
 
 /// Whether an affine matrix seems to be made for row vectors: its translation is in the last row.

@@ -8,10 +8,10 @@ pub enum Filter {
     Nearest,
     /// The four texels around it, compared and blended by the sampler.
     #[default]
-    Hardware,
+    Hardware2x2,
     /// The mean over so many texels across and down, each compared (percentage-closer filtering: Reeves, Salesin & Cook
     /// 1987); 0 is read as 1.
-    PercentageCloser(u8),
+    Pcf(u8),
 }
 
 impl Filter {
@@ -20,8 +20,8 @@ impl Filter {
     pub fn reach(self) -> f64 {
         match self {
             Self::Nearest => 0.5,
-            Self::Hardware => 1.0,
-            Self::PercentageCloser(taps) => 0.5 * f64::from(taps.max(1)),
+            Self::Hardware2x2 => 1.0,
+            Self::Pcf(taps) => 0.5 * f64::from(taps.max(1)),
         }
     }
 
@@ -29,8 +29,8 @@ impl Filter {
     #[must_use]
     pub fn border(self) -> u32 {
         match self {
-            Self::Nearest | Self::Hardware => 1,
-            Self::PercentageCloser(taps) => u32::from(taps.max(1)).div_ceil(2),
+            Self::Nearest | Self::Hardware2x2 => 1,
+            Self::Pcf(taps) => u32::from(taps.max(1)).div_ceil(2),
         }
     }
 }

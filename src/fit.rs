@@ -7,7 +7,7 @@ use crate::convex::Polyhedron;
 use crate::focus::{Focus, VIEW_IDS, clip_all};
 use crate::homography::Homography;
 use crate::light::Light;
-use crate::map::{DepthSpan, Map, Window};
+use crate::map::{DepthSpan, ShadowMap, Window};
 use crate::perspective::VirtualCamera;
 use crate::rays::{NoRays, Rays};
 use crate::rounding::{self, AWAY_FROM_LAMP, Rounding};
@@ -29,7 +29,7 @@ const LEAST_PART: f64 = 1.0 / 1_073_741_824.0;
 #[expect(clippy::large_enum_variant, reason = "a box would need a heap")]
 pub enum Outcome {
     /// One map, and its matrix.
-    Map(Map),
+    Map(ShadowMap),
     /// No map is needed.
     Empty(Empty),
     /// No single frustum holds what is visible.
@@ -39,7 +39,7 @@ pub enum Outcome {
 impl Outcome {
     /// The map, if there is one.
     #[must_use]
-    pub const fn map(&self) -> Option<&Map> {
+    pub const fn map(&self) -> Option<&ShadowMap> {
         match self {
             Self::Map(map) => Some(map),
             Self::Empty(_) | Self::Surrounded(_) => None,
@@ -52,16 +52,16 @@ impl Outcome {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Empty {
     /// Nothing that receives is in view and lit: the light needs no pass, and no shading either.
-    NothingVisible,
+    NoReceivers,
     /// Nothing can cast on what is visible: everything in view that the light reaches is lit.
-    NothingCasts,
+    NoCasters,
 }
 
 impl fmt::Display for Empty {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::NothingVisible => "nothing that is in view can be lit: no shadow map and no shading needed",
-            Self::NothingCasts => "nothing can cast on what is in view: no shadow map needed, all of it is lit",
+            Self::NoReceivers => "nothing that is in view can be lit: no shadow map and no shading needed",
+            Self::NoCasters => "nothing can cast on what is in view: no shadow map needed, all of it is lit",
         })
     }
 }
@@ -75,7 +75,7 @@ impl fmt::Display for Empty {
 /// let sun = Light::directional((0.4, 1.0, 0.2))?;
 /// let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
 /// if let Outcome::Map(map) = fit(&view, &sun, &scene, &Settings::default()) {
-///     println!("{}", map.matrix());
+///     println!("{}", map.caster_matrix());
 /// }
 /// # Ok::<(), shadowfit::InputError>(())
 /// ```
@@ -94,14 +94,14 @@ impl Focus<'_> {
     /// Fits one shadow map where there was another the frame before, of a view and a light that were not much different.
     ///
     /// Only [`Warp::Best`] makes something of that: it begins where the last search ended, which takes about half of the time,
-    /// and stays with the same local minimum while there is one and no closed form is better. [`Map::switched`] says when it
+    /// and stays with the same local minimum while there is one and no closed form is better. [`ShadowMap::jumped`] says when it
     /// jumped. All else is as by [`Self::fit`].
     #[must_use]
-    pub fn fit_from(&self, before: &Map, settings: &Settings) -> Outcome {
+    pub fn fit_warm(&self, before: &ShadowMap, settings: &Settings) -> Outcome {
         self.fit_after(Some(before), settings)
     }
 
-    fn fit_after(&self, before: Option<&Map>, settings: &Settings) -> Outcome {
+    fn fit_after(&self, before: Option<&ShadowMap>, settings: &Settings) -> Outcome {
         // One body after another in the same memory: H where the camera is moved back by it, R, and what can cast
         // into the window.
         let mut body = Polyhedron::EMPTY;
@@ -115,11 +115,11 @@ impl Focus<'_> {
         };
         self.cut_visible(&mut body, |_, _| ());
         if body.is_empty() {
-            return Outcome::Empty(Empty::NothingVisible);
+            return Outcome::Empty(Empty::NoReceivers);
         }
         match &self.casters {
             Some(casters) => fit_visible(self, &mut body, casters, depths, before, settings),
-            None => Outcome::Empty(Empty::NothingCasts),
+            None => Outcome::Empty(Empty::NoCasters),
         }
     }
 }
@@ -130,7 +130,7 @@ pub(crate) fn fit_visible(
     body: &mut Polyhedron,
     casters: &Region<'_>,
     depths: Option<Interval>,
-    before: Option<&Map>,
+    before: Option<&ShadowMap>,
     settings: &Settings,
 ) -> Outcome {
     let (view, light) = (focus.view(), focus.light());
@@ -149,7 +149,7 @@ pub(crate) fn fit_visible(
         Ok(rays) => rays,
         Err(NoRays::Surrounded(surrounded)) => return Outcome::Surrounded(surrounded),
         // All that is visible is where the light is.
-        Err(NoRays::Nothing) => return Outcome::Empty(Empty::NothingCasts),
+        Err(NoRays::Nothing) => return Outcome::Empty(Empty::NoCasters),
     };
     let origin = settings.origin().of(view, light);
     let visible = &*body;
@@ -172,7 +172,7 @@ pub(crate) fn fit_visible(
     let camera = match depths {
         None => VirtualCamera::own(view, &eye_depth),
         // Without any H nothing casts.
-        Some(depths) if depths.min > depths.max => return Outcome::Empty(Empty::NothingCasts),
+        Some(depths) if depths.min > depths.max => return Outcome::Empty(Empty::NoCasters),
         Some(depths) => VirtualCamera::moved_back(view, &depths),
     };
     let mut switched = false;
@@ -228,7 +228,7 @@ pub(crate) fn fit_visible(
     }
     if seen == 0.0 {
         // All that is visible is nearer to the light than anything casts.
-        return Outcome::Empty(Empty::NothingCasts);
+        return Outcome::Empty(Empty::NoCasters);
     }
     let window = Rectangle::over(&x, &y);
 
@@ -251,7 +251,7 @@ pub(crate) fn fit_visible(
     let planes = if rays.local { &planes[..] } else { &planes[..5] };
     clip_all(casting, planes, VIEW_IDS, extent, |_, _| ());
     if casting.is_empty() {
-        return Outcome::Empty(Empty::NothingCasts);
+        return Outcome::Empty(Empty::NoCasters);
     }
     // But for rounding c would never be less.
     let c_of = |values: DVec4| most(values.w, 0.5 * least_c);
@@ -285,7 +285,7 @@ pub(crate) fn fit_visible(
     // −e·l.
     let to_light = if rays.local { zero } else { 1.0 };
     let noise = rounding.scaled_to(largest).in_map(&map, &padded, &padded_depth, settings.sides(), to_light);
-    Outcome::Map(Map {
+    Outcome::Map(ShadowMap {
         rows: map.rows_to(&padded, &padded_depth, largest.recip()),
         view: *view,
         light: *light,

@@ -1,23 +1,26 @@
 //! The focus body H: every point that must appear in the shadow map.
 
-use crate::convex::{Bits, Body, Plane, PlaneId, Polyhedron};
+use crate::convex::{Bits, PlaneId, Polyhedron};
+pub use crate::convex::{ConvexBody, Face, Plane};
+pub use crate::cull::Culler;
 use crate::light::{Light, LightPlanes};
 use crate::rays::leave_corner;
 use crate::scene::{Bounds, Boxes, DAabb, Region, Scene};
+pub use crate::shared::{SharedFocus, Sharing};
 use crate::view::{FrustumPlanes, View};
 use glam::{DVec3, DVec4};
 
 /// Two forms of the focus body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Form {
+pub enum FocusForm {
     /// `hull(V, l) ∩ S ∩ L`, as the paper has it (Stamminger & Drettakis 2002, §4.1). Right even when S does not hold
     /// every receiver.
-    Paper,
+    ViewHull,
     /// `hull(V ∩ S ∩ L, l) ∩ S ∩ L`: only what can shadow something that is in S, lit and in view. A part of the
     /// paper's body, and a much smaller one when the far plane lies beyond the scene.
     #[default]
-    Tight,
+    ReceiverHull,
 }
 
 /// A view, a light and a scene brought together: what is visible and lit, and what can cast on it.
@@ -111,14 +114,14 @@ impl<'a> Focus<'a> {
 
     /// `R = V ∩ S ∩ L`: what is visible and can be lit.
     #[must_use]
-    pub fn visible(&self) -> Body {
+    pub fn receiver_volume(&self) -> ConvexBody {
         let (mut body, mut planes) = (Polyhedron::EMPTY, [Plane::ONE; Polyhedron::MAX_PLANES]);
         self.cut_visible(&mut body, |plane, id| planes[usize::from(id)] = plane);
-        Body::new(&body, planes)
+        ConvexBody::new(&body, planes)
     }
 
     /// R, less what is nearer to a light in a corner of it than the light's near distance: the map is for no more.
-    pub(crate) fn visible_beyond_light(&self) -> Body {
+    pub(crate) fn visible_beyond_light(&self) -> ConvexBody {
         let (mut body, mut planes) = (Polyhedron::EMPTY, [Plane::ONE; Polyhedron::MAX_PLANES]);
         self.cut_visible(&mut body, |plane, id| planes[usize::from(id)] = plane);
         if let Some(position) = self.light.position() {
@@ -126,7 +129,7 @@ impl<'a> Focus<'a> {
             let _ =
                 leave_corner(position, self.light.near(), &mut body, |plane, id| planes[usize::from(id)] = plane);
         }
-        Body::new(&body, planes)
+        ConvexBody::new(&body, planes)
     }
 
     /// The focus body in one of its forms.
@@ -134,10 +137,10 @@ impl<'a> Focus<'a> {
     /// It bounds the casters: with a scene of lists, S here is the bound of those casters that can touch what is
     /// visible.
     #[must_use]
-    pub fn body(&self, form: Form) -> Body {
+    pub fn caster_volume(&self, form: FocusForm) -> ConvexBody {
         let (mut body, mut planes) = (Polyhedron::EMPTY, [Plane::ONE; Polyhedron::MAX_PLANES]);
         self.cut_body(&mut body, form, |plane, id| planes[usize::from(id)] = plane);
-        Body::new(&body, planes)
+        ConvexBody::new(&body, planes)
     }
 
     /// What stands for several of its kind, of one light and one scene: seen by one view, with all of their receivers and
@@ -190,15 +193,15 @@ impl<'a> Focus<'a> {
     }
 
     /// Makes H of any body, telling `each` which planes bound it.
-    pub(crate) fn cut_body(&self, body: &mut Polyhedron, form: Form, mut each: impl FnMut(Plane, PlaneId)) {
+    pub(crate) fn cut_body(&self, body: &mut Polyhedron, form: FocusForm, mut each: impl FnMut(Plane, PlaneId)) {
         body.clear();
         let Some(region) = &self.casters else { return };
         let hull = match form {
-            Form::Paper => {
+            FocusForm::ViewHull => {
                 let l = self.light.homogeneous();
                 Some(PlaneList::hull_of_frustum(&self.view_planes, l, region.extent()))
             }
-            Form::Tight => self.hull_of_visible(region.extent()),
+            FocusForm::ReceiverHull => self.hull_of_visible(region.extent()),
         };
         if let Some(hull) = hull {
             let extent = self.cut_lit(body, region, &mut each);
@@ -234,7 +237,7 @@ impl<'a> Focus<'a> {
         // Planes that bound the casters anyway need not bound them twice.
         let of_light = self.light_ids(self.receivers.as_ref()?);
         let known = if self.caster_list.is_some() { of_light } else { 0..of_light.end };
-        PlaneList::hull_of_body(&self.visible(), self.light.homogeneous(), extent, &known)
+        PlaneList::hull_of_body(&self.receiver_volume(), self.light.homogeneous(), extent, &known)
     }
 }
 
@@ -356,7 +359,7 @@ impl PlaneList {
     }
 
     /// hull(R, l) within `extent`, less the planes of R with `known` names, or `None` when R is empty.
-    fn hull_of_body(body: &Body, l: DVec4, extent: DVec3, known: &core::ops::Range<PlaneId>) -> Option<Self> {
+    fn hull_of_body(body: &ConvexBody, l: DVec4, extent: DVec3, known: &core::ops::Range<PlaneId>) -> Option<Self> {
         if body.is_empty() {
             return None;
         }

@@ -11,7 +11,7 @@
 use crate::bounds::{Interval, least, most};
 use crate::clip_space::{ClipSpace, DepthRange, YAxis};
 use crate::convex::Plane;
-use crate::error::{InputError, MAX_COORDINATE, Problem, check};
+use crate::error::{InputError, InputErrorKind, MAX_COORDINATE, check};
 use crate::view::{Lens, View};
 use glam::{DMat4, DVec2, DVec3};
 
@@ -75,7 +75,7 @@ impl Rows {
         // All entries may be of any size: what is homogeneous has none.
         let largest = rows.iter().map(|row| row.normal.abs().max_element()).fold(0.0, most);
         if largest == 0.0 {
-            return check::fail(field, Problem::Singular);
+            return check::fail(field, InputErrorKind::Singular);
         }
         let [x, y, z, w] = rows.map(|row| row * largest.recip());
         let y = if clip.y == YAxis::Down { -y } else { y };
@@ -117,7 +117,7 @@ impl Rows {
         let ((x, x_along), (y, y_along)) = (across(x), across(y));
         let eye = meet(&x, &y, &w);
         if !eye.is_finite() {
-            return check::fail(self.field, Problem::NotAProjection);
+            return check::fail(self.field, InputErrorKind::NotAProjection);
         }
         let image = self.image([&x, &y], forward, whole)?;
         let (min, max) = image.edges(DVec2::new(x_along, y_along));
@@ -134,7 +134,7 @@ impl Rows {
         // A near plane that rounding may have brought behind an eye far out stands next to it.
         let before = if before.abs() <= lost { most(before, lost / 256.0) } else { before };
         if before <= 0.0 {
-            return check::fail("near", Problem::OutOfOrder);
+            return check::fail("near", InputErrorKind::OutOfOrder);
         }
         let directions = |cut: bool| {
             let [right, up] = image.steps();
@@ -158,7 +158,7 @@ impl Rows {
         }
         if depths.min == f64::INFINITY {
             // The near plane leaves nothing of the view.
-            return check::fail("near", Problem::OutsideView);
+            return check::fail("near", InputErrorKind::OutsideView);
         }
         let near_depth = if near_cut { depths.min * (1.0 - ROOM) } else { depths.min };
         let far_depth = if far_cut { depths.max * (1.0 + ROOM) } else { depths.max };
@@ -188,7 +188,7 @@ impl Rows {
         let middle = meet(&self.x, &self.y, &self.z);
         let size = self.w.at(middle);
         if size.is_nan() || size <= 0.0 {
-            return check::fail(self.field, Problem::NotAProjection);
+            return check::fail(self.field, InputErrorKind::NotAProjection);
         }
         let scale = size.recip();
         let [x, y, near, far] = [self.x, self.y, self.near, self.far].map(|row| row * scale);
@@ -251,7 +251,7 @@ impl Rows {
         let lean = right.dot(up);
         // A sine that is all rounding would make no image.
         if lean.is_nan() || 1.0 - lean * lean <= 1e-12 {
-            return check::fail(self.field, Problem::Singular);
+            return check::fail(self.field, InputErrorKind::Singular);
         }
         if lean.abs() > self.tolerance * (whole / size).element_sum() {
             return Ok(Image { right, up, lean, size });

@@ -4,7 +4,7 @@
 //! does the rest.
 
 use crate::bounds::{least, most};
-use crate::convex::{Body, Plane};
+use crate::convex::{ConvexBody, Plane};
 use crate::view::{Lens, View};
 use glam::{DVec2, DVec3};
 
@@ -213,7 +213,7 @@ impl Grading {
 }
 
 /// The triangles of the faces of a body, each face a fan; counter-clockwise as seen from outside.
-pub(crate) fn triangles(body: &Body) -> impl Iterator<Item = [DVec3; 3]> + '_ {
+pub(crate) fn triangles(body: &ConvexBody) -> impl Iterator<Item = [DVec3; 3]> + '_ {
     body.faces().flat_map(|face| {
         let mut order = [0; crate::convex::Polyhedron::MAX_VERTICES];
         let mut len = 0;
@@ -226,7 +226,7 @@ pub(crate) fn triangles(body: &Body) -> impl Iterator<Item = [DVec3; 3]> + '_ {
 }
 
 /// The dimension of a body, with what rounding alone makes of a flat one or of a segment counted as nothing.
-pub(crate) fn dimension(body: &Body) -> usize {
+pub(crate) fn dimension(body: &ConvexBody) -> usize {
     /// A thickness this small, against the largest coordinate, may be rounding.
     const ROUNDING: f64 = 1024.0 * f64::EPSILON;
     let Some((min, max)) = body.bounds() else { return 0 };
@@ -243,7 +243,7 @@ pub(crate) fn dimension(body: &Body) -> usize {
 }
 
 /// The simplices of so many dimensions that a body is made of: all of it, its faces, its length or a point of it.
-pub(crate) fn for_each_simplex(body: &Body, dimension: usize, mut each: impl FnMut(Simplex)) {
+pub(crate) fn for_each_simplex(body: &ConvexBody, dimension: usize, mut each: impl FnMut(Simplex)) {
     let vertices = body.vertices();
     let Some(&first) = vertices.first() else { return };
     let farthest = |from: DVec3| {
@@ -270,7 +270,7 @@ pub(crate) fn for_each_simplex(body: &Body, dimension: usize, mut each: impl FnM
 
 /// The integral of a function over all of a body in so many dimensions, and that of 1.
 pub(crate) fn over(
-    body: &Body,
+    body: &ConvexBody,
     dimension: usize,
     grading: &Grading,
     mut function: impl FnMut(DVec3) -> f64,

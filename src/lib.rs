@@ -3,24 +3,24 @@
 //! Given a **view** V (the camera's frustum), a **light** l with the region L it can light, and the bounds S of a
 //! **scene**, this crate computes
 //!
-//! 1. the focus body `H = hull(V, l) ∩ S ∩ L`: every point that must appear in the shadow map ([`Focus`], [`Body`]);
-//! 2. the class of the light after the camera's perspective ([`classify`]);
-//! 3. the virtual camera and its back-shift ([`VirtualCamera`]);
-//! 4. one 4×4 matrix, world → shadow clip space ([`fit`], [`Map`]): uniform, warped as one of three papers has it, or the best
+//! 1. the focus body `H = hull(V, l) ∩ S ∩ L`: every point that must appear in the shadow map ([`Focus`], [`ConvexBody`](focus::ConvexBody));
+//! 2. the class of the light after the camera's perspective ([`classify`](warp::classify));
+//! 3. the virtual camera and its back-shift ([`VirtualCamera`](warp::VirtualCamera));
+//! 4. one 4×4 matrix, world → shadow clip space ([`fit`], [`ShadowMap`]): uniform, warped as one of three papers has it, or the best
 //!    that a search finds ([`Warp`]);
-//! 5. what the matrix costs and gives: texel footprints, aliasing, depth resolution ([`Report`]), how much is left to gain
-//!    ([`Focus::limit`]), and the casters to draw ([`Body::meets_box`], [`Culler`]).
+//! 5. what the matrix costs and gives: texel footprints, aliasing, depth resolution ([`Report`](map::Report)), how much is left to gain
+//!    ([`Focus::aliasing_lower_bound`]), and the casters to draw ([`ConvexBody::intersects_aabb`](focus::ConvexBody::intersects_aabb), [`Culler`](focus::Culler)).
 //!
 //! For lights that one frustum cannot serve there are the faces of a cube ([`Light::cube_face`]) and paraboloid maps
-//! ([`Focus::paraboloids`]), and for views that one map is too coarse for, slices of them ([`Slices`]). How depth is tested is part of a shadow too: the bias that a map needs ([`Map::bias`]),
-//! second depth, which needs none ([`DepthTest`], [`Solidity`]), virtual samples ([`TangentPlane`]), and splats for points
-//! ([`Map::splat`]).
+//! ([`Focus::paraboloids`]), and for views that one map is too coarse for, slices of them ([`Cascades`](cascades::Cascades)). How depth is tested is part of a shadow too: the bias that a map needs ([`ShadowMap::bias`]),
+//! second depth, which needs none ([`DepthTest`](depth::DepthTest), [`Solidity`](mesh::Solidity)), virtual samples ([`TangentPlane`](depth::TangentPlane)), and splats for points
+//! ([`ShadowMap::splat`]).
 //!
-//! And for those who would rather not choose, [`plan`](plan()) says of every light of a scene the least that is enough,
+//! And for those who would rather not choose, [`plan`](plan::plan()) says of every light of a scene the least that is enough,
 //! and why.
 //!
 //! ```
-//! use shadowfit::{Focus, Form, Light, Outcome, Scene, Settings, View, classify, fit};
+//! use shadowfit::{Focus, FocusForm, Light, Outcome, Scene, Settings, View, fit, warp::classify};
 //!
 //! # fn main() -> Result<(), shadowfit::InputError> {
 //! let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 500.0)?;
@@ -29,7 +29,7 @@
 //!
 //! // The common case is one call.
 //! match fit(&view, &sun, &scene, &Settings::default()) {
-//!     Outcome::Map(map) => println!("upload {}", map.matrix()),
+//!     Outcome::Map(map) => println!("upload {}", map.caster_matrix()),
 //!     Outcome::Empty(why) => println!("{why}"),
 //!     Outcome::Surrounded(why) => println!("{why}"),
 //! }
@@ -37,12 +37,12 @@
 //! // And each step is there for those who need one of them.
 //! println!("{}", classify(&view, &sun)); // point, inverted, directional, infinity plane
 //! let focus = Focus::new(&view, &sun, &scene);
-//! let body = focus.body(Form::Tight);
-//! println!("draw the tree: {}", body.meets_box((3.0, 0.0, -9.0), (5.0, 4.0, -7.0)));
+//! let body = focus.caster_volume(FocusForm::ReceiverHull);
+//! println!("draw the tree: {}", body.intersects_aabb((3.0, 0.0, -9.0), (5.0, 4.0, -7.0)));
 //! let settings = Settings::new(4096, 1440)?; // texels and pixels; the rest as in the default
 //! if let Some(map) = focus.fit(&settings).map() {
 //!     let aliasing = map.report(&focus).aliasing;
-//!     println!("a texel is at worst {aliasing} pixels long, and could be {}", focus.limit(&settings));
+//!     println!("a texel is at worst {aliasing} pixels long, and could be {}", focus.aliasing_lower_bound(&settings));
 //! }
 //! # Ok(())
 //! # }
@@ -61,7 +61,7 @@
 //! | directions of light | point **towards** the light; axes of spots and hemispheres point away from it |
 //! | angles, distances | radians, world units |
 //! | clip space | as the [`ClipSpace`] of the settings says; wgpu's by default |
-//! | numbers | f64 inside, f32 in [`Map::matrix`], bulk culling and lists of boxes |
+//! | numbers | f64 inside, f32 in [`ShadowMap::caster_matrix`], bulk culling and lists of boxes |
 //!
 //! # Sources
 //!
@@ -75,21 +75,21 @@
 //!
 //! # Features
 //!
-//! - `std` (on): square roots from the standard library, and what needs memory of its own: the planner and [`Solidity`].
+//! - `std` (on): square roots from the standard library, and what needs memory of its own: the planner and [`Solidity`](mesh::Solidity).
 //!   Without it, enable `libm`.
 //! - `libm`: square roots from the `libm` crate.
 //! - `parry3d`: bodies, boxes and convex hulls from and to parry3d.
-//! - `spade`: meshes cut finely enough for paraboloid maps (`Refiner`).
+//! - `spade`: meshes cut finely enough for paraboloid maps (`Tessellator`).
 //! - `wgsl`: functions for a renderer's own shaders ([`wgsl`]).
 //! - `serde`: views, lights, settings and results can be stored; what is read is checked like any other input.
 //!
 //! # Other libraries
 //!
 //! Constructors take what converts into arrays, in f32 or f64: glam of any version (Bevy's, parry's), nalgebra, cgmath, mint,
-//! tuples, arrays. Results are arrays in one call. No version is pinned ([`IntoMatrix`] has the table for matrices).
+//! tuples, arrays. Results are arrays in one call. No version is pinned ([`IntoMatrix`](input::IntoMatrix) has the table for matrices).
 //!
 //! ```
-//! # use shadowfit::{Light, Settings, Scene, View, fit};
+//! # use shadowfit::{Light, Scene, Settings, View, fit};
 //! # #[derive(Clone, Copy)] struct TheirVec3([f32; 3]); // bevy_math::Vec3, nalgebra::Vector3<f32>, ...
 //! # impl From<TheirVec3> for [f32; 3] { fn from(vector: TheirVec3) -> Self { vector.0 } }
 //! # let theirs = TheirVec3([0.4, 1.0, 0.2]);
@@ -98,8 +98,8 @@
 //! # let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 500.0)?;
 //! # let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
 //! if let Some(map) = fit(&view, &sun, &scene, &Settings::default()).map() {
-//!     let columns: [[f32; 4]; 4] = map.matrix().to_cols_array_2d(); // what every library's matrix is made from
-//!     assert_eq!(columns[3][3], map.matrix().w_axis.w);
+//!     let columns: [[f32; 4]; 4] = map.caster_matrix().to_cols_array_2d(); // what every library's matrix is made from
+//!     assert_eq!(columns[3][3], map.caster_matrix().w_axis.w);
 //! }
 //! # Ok::<(), shadowfit::InputError>(())
 //! ```
@@ -125,7 +125,7 @@ mod decode;
 mod error;
 mod filter;
 mod fit;
-mod focus;
+pub mod focus;
 mod frame;
 mod frustum;
 mod homography;
@@ -134,7 +134,7 @@ mod infinity;
 mod integral;
 mod light;
 mod limit;
-mod map;
+pub mod map;
 mod narrow;
 mod normal_offset;
 mod numbers;
@@ -144,7 +144,7 @@ mod paraboloid;
 mod parry;
 mod perspective;
 #[cfg(feature = "std")]
-mod plan;
+pub mod plan;
 mod quality;
 mod rays;
 #[cfg(feature = "spade")]
@@ -165,43 +165,60 @@ mod surrounded;
 mod tolerance;
 mod view;
 mod virtual_sample;
-mod warp;
+pub mod warp;
 #[cfg(feature = "wgsl")]
 pub mod wgsl;
 
-pub use aliasing::Aliasing;
-pub use bias::DepthBias;
-pub use clip_space::{ClipSpace, DepthRange, TextureOrigin, YAxis};
-pub use convex::{Body, Face, Plane};
-pub use cube::CubeFace;
-pub use cull::Culler;
-pub use error::{Expected, Hint, InputError, MAX_COORDINATE, MIN_DISTANCE, Problem};
+pub use clip_space::ClipSpace;
+pub use error::InputError;
 pub use filter::Filter;
 pub use fit::{Empty, Outcome, fit};
-pub use focus::{Focus, Form};
+pub use focus::{Focus, FocusForm};
 pub use glam;
-pub use light::{Light, LightPlanes};
-pub use map::{DepthResolution, DepthSpan, Map, Report, Window};
-pub use numbers::IntoMatrix;
-pub use offset::Offset;
-pub use paraboloid::{Paraboloid, ParaboloidRounding, Paraboloids};
-pub use perspective::{ClassKind, LightClass, NearCase, VirtualCamera, classify};
-#[cfg(feature = "std")]
-pub use plan::{Budget, Kind, LightPlan, Object, Objects, Pass, Plan, Projection, Reason, Surface, plan};
-pub use quality::{DepthFormat, Footprint};
-#[cfg(feature = "spade")]
-pub use refine::{Added, Refined, Refiner};
-pub use refusal::Refusal;
-pub use scene::{Aabb, Bounding, ConvexScene, DAabb, Scene};
-#[cfg(feature = "std")]
-pub use second_depth::{Culling, DepthTest};
-pub use settings::{Effort, Origin, Settings, Shift, Warp};
-pub use shared::{SharedFocus, Sharing};
-pub use slices::{Cuts, Extent, Layout, Slice, SliceMaps, SliceUniform, Slices, SlicesReport, Split, Tile};
-#[cfg(feature = "std")]
-pub use solidity::{Sheet, Solidity, SolidityReport};
-pub use splat::Splat;
+pub use light::Light;
+pub use map::ShadowMap;
+pub use quality::DepthFormat;
+pub use refusal::WarpFallback;
+pub use scene::{Aabb, Scene};
+pub use settings::{Effort, Origin, Settings, Warp};
 pub use surrounded::Surrounded;
-pub use tolerance::{ComparisonTolerance, SUBTEXEL};
-pub use view::{FrustumPlanes, Lens, Tangents, View};
-pub use virtual_sample::{LEAST_INCIDENCE, Rule, Sampled, TangentPlane};
+pub use view::View;
+
+/// Input.
+pub mod input {
+    pub use crate::clip_space::{DepthRange, TextureOrigin, YAxis};
+    pub use crate::error::{Expected, Hint, InputErrorKind, MAX_COORDINATE, MIN_DISTANCE};
+    pub use crate::light::LightPlanes;
+    pub use crate::numbers::IntoMatrix;
+    pub use crate::scene::{Bounding, ConvexScene, DAabb};
+    pub use crate::view::{FrustumPlanes, Lens, Tangents};
+}
+/// Cascades.
+pub mod cascades {
+    pub use crate::slices::{
+        AtlasTile, Cascade, CascadeLayout, CascadeMaps, CascadeSplits, CascadeUniform, Cascades, CascadesReport,
+        SplitScheme, TextureExtent,
+    };
+}
+/// Omni.
+pub mod omni {
+    pub use crate::cube::CubeFace;
+    pub use crate::paraboloid::{Paraboloid, ParaboloidRounding, Paraboloids};
+}
+/// Depth.
+pub mod depth {
+    pub use crate::bias::DepthBias;
+    pub use crate::offset::ReceiverOffset;
+    #[cfg(feature = "std")]
+    pub use crate::second_depth::{Culling, DepthTest};
+    pub use crate::splat::Splat;
+    pub use crate::tolerance::{ComparisonTolerance, RASTER_GRID};
+    pub use crate::virtual_sample::{Decision, MIN_SIN_INCIDENCE, ShadowSample, TangentPlane};
+}
+/// Mesh.
+#[cfg(feature = "std")]
+pub mod mesh {
+    #[cfg(feature = "spade")]
+    pub use crate::refine::{NewVertex, Tessellation, Tessellator};
+    pub use crate::solidity::{OpenShape, Solidity, SolidityReport};
+}

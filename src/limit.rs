@@ -37,8 +37,8 @@ impl Focus<'_> {
     ///
     /// Its relative error is below 1e-5, by quadrature. It takes a hundred times as long as a fit and allocates nothing.
     #[must_use]
-    pub fn limit(&self, settings: &Settings) -> f64 {
-        let (view, visible) = (self.view(), self.visible());
+    pub fn aliasing_lower_bound(&self, settings: &Settings) -> f64 {
+        let (view, visible) = (self.view(), self.receiver_volume());
         let Some((min, max)) = visible.bounds() else { return 0.0 };
         let (l, position) = (self.light().homogeneous(), self.light().position());
         let unit = if view.lens() == Lens::Perspective { view.depth_row().on(l) } else { l.w };

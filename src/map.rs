@@ -1,16 +1,18 @@
 //! A fitted map: the matrices a renderer uploads, and what they cost and give.
 
+pub use crate::aliasing::Aliasing;
 use crate::along::Along;
 use crate::bounds::{Interval, Rectangle};
 use crate::clip_space::ClipSpace;
-use crate::convex::{Body, Plane, matrix_from_rows};
-use crate::focus::{Focus, Form};
+use crate::convex::{ConvexBody, Plane, matrix_from_rows};
+use crate::focus::{Focus, FocusForm};
 use crate::light::Light;
-use crate::offset::Offset;
+use crate::offset::ReceiverOffset;
 use crate::perspective::{LightClass, VirtualCamera, classify};
-use crate::quality::{DepthFormat, Footprint, depth_resolution, depth_slopes, footprint, linear_depth_resolution};
+pub use crate::quality::Footprint;
+use crate::quality::{DepthFormat, depth_resolution, depth_slopes, footprint, linear_depth_resolution};
 use crate::rays::Rays;
-use crate::refusal::Refusal;
+use crate::refusal::WarpFallback;
 use crate::rounding::{AWAY_FROM_LAMP, MapNoise};
 use crate::settings::{Origin, Settings, Warp};
 use crate::view::View;
@@ -32,7 +34,7 @@ use glam::{DMat4, DVec2, DVec3, Mat4};
 ///   'greater' for a reversed clip space, whatever the class of the light;
 /// - w > 0, so that no caster wraps around, wherever it is, also behind the eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Map {
+pub struct ShadowMap {
     /// World to clip, depth 0 to 1, y up.
     pub(crate) rows: [Plane; 4],
     pub(crate) view: View,
@@ -46,7 +48,7 @@ pub struct Map {
     pub(crate) weakening: f64,
     /// By how much of the uniform map's w the best map was mixed, see [`Proposed::mixed`](crate::warp::Proposed).
     pub(crate) mixed: f64,
-    pub(crate) refusal: Option<Refusal>,
+    pub(crate) refusal: Option<WarpFallback>,
     pub(crate) switched: bool,
     pub(crate) warp_ratio: f64,
 }
@@ -66,7 +68,7 @@ pub struct Window {
     pub padding: (f64, f64),
     /// How far f32 can carry anything visible across the map, in the matrix and in positions, in texels:
     /// thousandths of one in most uniform maps, more where a strong warp or coordinates far out cost f32 its last bits.
-    /// It is the most there is anywhere, for [`Map::place_rounding`] of a point.
+    /// It is the most there is anywhere, for [`ShadowMap::place_rounding`] of a point.
     pub rounding: f64,
 }
 
@@ -91,7 +93,7 @@ pub struct DepthSpan {
     pub far: f64,
     /// How far f32 can carry the depth of anything visible, in the matrix and in positions, where the depth range is 1:
     /// the noise that a bias must cover besides the depth format's own. It is the most there is anywhere; at a point it may
-    /// be far less ([`Map::depth_rounding`]), as it falls with 1/w.
+    /// be far less ([`ShadowMap::depth_rounding`]), as it falls with 1/w.
     ///
     /// Ranges are made so long that, where w is largest, it is at most about 2⁻²⁰, 16 steps of 24 bits, and what f32 loses
     /// of w besides: some steps in a uniform map, more in a strong warp.
@@ -111,69 +113,69 @@ impl DepthSpan {
     }
 }
 
-impl Map {
+impl ShadowMap {
     /// The matrix to upload: positions relative to [`Self::origin`], in world space unless the settings say otherwise, to clip
     /// space in the convention of the settings.
     #[must_use]
-    pub fn matrix(&self) -> Mat4 {
-        self.about_origin(self.shadow_from_world()).as_mat4()
+    pub fn caster_matrix(&self) -> Mat4 {
+        self.about_origin(self.clip_from_world()).as_mat4()
     }
 
     /// The matrix from the same positions to texture space: after division by w, (x, y) are texture coordinates in
     /// [0, 1]² and z is what the depth buffer holds.
     #[must_use]
-    pub fn texture_matrix(&self) -> Mat4 {
+    pub fn receiver_matrix(&self) -> Mat4 {
         self.about_origin(self.texture_from_world()).as_mat4()
     }
 
     /// World space to clip space in the convention of the settings.
     #[must_use]
-    pub fn shadow_from_world(&self) -> DMat4 {
-        self.shadow_from_world_in(self.settings.clip())
+    pub fn clip_from_world(&self) -> DMat4 {
+        self.clip_from_world_in(self.settings.clip())
     }
 
     /// World space to clip space in any convention.
     #[must_use]
-    pub fn shadow_from_world_in(&self, clip: ClipSpace) -> DMat4 {
+    pub fn clip_from_world_in(&self, clip: ClipSpace) -> DMat4 {
         matrix_from_rows(clip.rows_from_wgpu(self.rows))
     }
 
-    /// World space to texture space, see [`Self::texture_matrix`].
+    /// World space to texture space, see [`Self::receiver_matrix`].
     #[must_use]
     pub fn texture_from_world(&self) -> DMat4 {
         matrix_from_rows(self.settings.clip().texture_rows_from_wgpu(self.rows))
     }
 
-    /// [`Self::texture_matrix`] for receivers that are tested as if they lay nearer to the light: what to upload for the
-    /// shadow test, while casters are drawn with [`Self::matrix`].
+    /// [`Self::receiver_matrix`] for receivers that are tested as if they lay nearer to the light: what to upload for the
+    /// shadow test, while casters are drawn with [`Self::caster_matrix`].
     ///
     /// Only depth changes, and with it nothing that the fit promises of the window. A receiver that is moved out of the
     /// near end of the depth range is lit: clamp depth to [0, 1] in the shader, or compare as it is.
     #[must_use]
-    pub fn texture_matrix_with(&self, offset: &Offset) -> Mat4 {
+    pub fn receiver_matrix_with(&self, offset: &ReceiverOffset) -> Mat4 {
         self.about_origin(self.texture_from_world_with(offset)).as_mat4()
     }
 
-    /// World space to texture space with an offset, see [`Self::texture_matrix_with`].
+    /// World space to texture space with an offset, see [`Self::receiver_matrix_with`].
     #[must_use]
-    pub fn texture_from_world_with(&self, offset: &Offset) -> DMat4 {
+    pub fn texture_from_world_with(&self, offset: &ReceiverOffset) -> DMat4 {
         matrix_from_rows(self.settings.clip().texture_rows_from_wgpu(self.rows_with(offset)))
     }
 
-    /// [`Self::texture_matrix_with`] in clip space, for shaders that go from there to texture coordinates themselves: depth is
+    /// [`Self::receiver_matrix_with`] in clip space, for shaders that go from there to texture coordinates themselves: depth is
     /// that of clip space, from −1 to 1 where the settings say so.
     #[must_use]
-    pub fn matrix_with(&self, offset: &Offset) -> Mat4 {
-        self.about_origin(self.shadow_from_world_with(offset)).as_mat4()
+    pub fn receiver_clip_matrix_with(&self, offset: &ReceiverOffset) -> Mat4 {
+        self.about_origin(self.clip_from_world_with(offset)).as_mat4()
     }
 
-    /// World space to clip space with an offset, see [`Self::matrix_with`].
+    /// World space to clip space with an offset, see [`Self::receiver_clip_matrix_with`].
     #[must_use]
-    pub fn shadow_from_world_with(&self, offset: &Offset) -> DMat4 {
+    pub fn clip_from_world_with(&self, offset: &ReceiverOffset) -> DMat4 {
         matrix_from_rows(self.settings.clip().rows_from_wgpu(self.rows_with(offset)))
     }
 
-    fn rows_with(&self, offset: &Offset) -> [Plane; 4] {
+    fn rows_with(&self, offset: &ReceiverOffset) -> [Plane; 4] {
         let [x, y, z, w] = self.rows;
         [x, y, offset.depth_row(z, w, self.light.homogeneous(), &self.along), w]
     }
@@ -317,7 +319,7 @@ impl Map {
 
     /// Why the map is the uniform one although another was asked for; `None` where it is what was asked for.
     #[must_use]
-    pub const fn refusal(&self) -> Option<Refusal> {
+    pub const fn fallback(&self) -> Option<WarpFallback> {
         self.refusal
     }
 
@@ -338,9 +340,9 @@ impl Map {
     }
 
     /// Whether something visible jumps by more than a 32nd of the map from the map before to this one
-    /// ([`Focus::fit_from`]): because the local minimum that the search stayed with is no more, or is worse than a closed form.
+    /// ([`Focus::fit_warm`]): because the local minimum that the search stayed with is no more, or is worse than a closed form.
     #[must_use]
-    pub const fn switched(&self) -> bool {
+    pub const fn jumped(&self) -> bool {
         self.switched
     }
 
@@ -352,7 +354,7 @@ impl Map {
             |value: &dyn Fn(DVec3) -> f64| visible.vertices().iter().map(|&point| value(point)).fold(0.0, f64::max);
         Report {
             class: classify(&self.view, &self.light),
-            body: focus.body(Form::Tight),
+            body: focus.caster_volume(FocusForm::ReceiverHull),
             camera: self.camera,
             warp: self.settings.warp(),
             refusal: self.refusal,
@@ -379,33 +381,33 @@ pub struct Report {
     /// The class of the light after the camera's perspective.
     pub class: LightClass,
     /// R, what is visible and lit.
-    pub visible: Body,
+    pub visible: ConvexBody,
     /// H in its tight form.
-    pub body: Body,
+    pub body: ConvexBody,
     /// The camera whose perspective warps the map, with its back-shift.
     pub camera: VirtualCamera,
     /// The warp that was asked for.
     pub warp: Warp,
-    /// Why it could not be made, see [`Map::refusal`].
-    pub refusal: Option<Refusal>,
-    /// How much of it is left out, see [`Map::weakening`].
+    /// Why it could not be made, see [`ShadowMap::fallback`].
+    pub refusal: Option<WarpFallback>,
+    /// How much of it is left out, see [`ShadowMap::weakening`].
     pub weakening: f64,
-    /// How strong the warp is, see [`Map::warp_ratio`].
+    /// How strong the warp is, see [`ShadowMap::warp_ratio`].
     pub warp_ratio: f64,
     /// What x and y cover.
     pub window: Window,
     /// What depth covers.
     pub depth: DepthSpan,
-    /// The part of it that lies in the air beside a light at a position, see [`Map::depth_beside_light`].
+    /// The part of it that lies in the air beside a light at a position, see [`ShadowMap::depth_beside_light`].
     pub depth_beside_light: f64,
     /// The longest side of a texel's footprint over the vertices of R, in world units.
     pub texel: f64,
-    /// The worst aliasing over the vertices of R, see [`Map::aliasing`]. There may be more between them:
-    /// [`Map::aliasing_over`] finds that, and the mean.
+    /// The worst aliasing over the vertices of R, see [`ShadowMap::aliasing`]. There may be more between them:
+    /// [`ShadowMap::aliasing_over`] finds that, and the mean.
     pub aliasing: f64,
     /// The coarsest depth resolution over the vertices of R.
     pub depth_resolution: DepthResolution,
-    /// The same where a shader stores linear depth, see [`Map::linear_depth_resolution`].
+    /// The same where a shader stores linear depth, see [`ShadowMap::linear_depth_resolution`].
     pub linear_depth_resolution: DepthResolution,
 }
 

@@ -3,17 +3,17 @@
 use crate::bias::{DepthBias, away};
 use crate::bounds::most;
 use crate::focus::Focus;
-use crate::map::Map;
+use crate::map::ShadowMap;
 use crate::numbers::vector;
 use glam::{DVec2, DVec3};
 
-impl Map {
+impl ShadowMap {
     /// How far a receiver on a plane is to be moved along its normal before it is looked up, so that the plane does not shadow
     /// itself: what `bias` does in depth, done in space, in world units.
     ///
     /// It is for renderers that bias so (Holbert, *Normal Offset Shadows*, GDC 2011; Bevy's `shadow_normal_bias`, Unity's and
     /// Godot's normal bias): casters are drawn and receivers tested without any other bias, and the receiver X at
-    /// X + d n. Engines that take a multiple of the texel's size take d over [`Footprint::longest`](crate::Footprint::longest). Unlike a
+    /// X + d n. Engines that take a multiple of the texel's size take d over [`Footprint::longest`](crate::map::Footprint::longest). Unlike a
     /// slope it stays small where the light grazes a surface, and moves shadows across instead of along.
     ///
     /// `normal` may have any length and point to either side; the move is towards the light's side. Infinite outside of the map,
@@ -94,7 +94,7 @@ impl Map {
         let across = |side: DVec3| (depth.normal - w.normal * stored).dot(side).abs();
         let across = most(across(texel.along_x), across(texel.along_y));
         let side = most(texel.along_x.length(), texel.along_y.length());
-        let slope = f64::from(bias.slope.abs());
+        let slope = f64::from(bias.slope_scale.abs());
         let constant = bias.receiver + away(bias, *bias.format.bias_unit(1.0).end(), 0.0);
         let along = (constant * at + bias.relative * of_light + slope * across) * (distance / of_light);
         let moved = DVec2::new(along, slope * side).length();

@@ -20,7 +20,7 @@ pub(crate) fn vector<F: Into<f64>>(vector: impl Into<[F; 3]>) -> DVec3 {
 /// | nalgebra, cgmath, mint's `ColumnMatrix4` | itself |
 /// | 16 numbers, column after column | `glam::Mat4::from_cols_array(&numbers)` |
 ///
-/// Results go back the same way: `map.matrix().to_cols_array_2d()` is what every library's `from` takes.
+/// Results go back the same way: `map.caster_matrix().to_cols_array_2d()` is what every library's `from` takes.
 ///
 /// `Columns` is found by the compiler. A matrix kept by rows (mint's `RowMatrix4`) converts into an array of its rows, which is
 /// its transpose: convert it to columns first.

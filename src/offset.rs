@@ -21,18 +21,22 @@ use glam::DVec4;
 ///
 /// | offset | g | moves a receiver towards the light by |
 /// |---|---|---|
-/// | [`Offset::world`], directional light | h | h world units |
-/// | [`Offset::world`], light at a position | a chord of h/(a − h) | h world units or more, wherever something is visible |
-/// | [`Offset::relative`] | k | k/(1 + k) of its distance; k world units under a directional light |
-/// | [`Offset::depth`], [`Offset::and_depth`] | | what changes its depth by β: the row is e − β c |
+/// | [`ReceiverOffset::world`], directional light | h | h world units |
+/// | [`ReceiverOffset::world`], light at a position | a chord of h/(a − h) | h world units or more, wherever something is visible |
+/// | [`ReceiverOffset::relative`] | k | k/(1 + k) of its distance; k world units under a directional light |
+/// | [`ReceiverOffset::depth`], [`ReceiverOffset::and_depth`] | | what changes its depth by β: the row is e − β c |
 ///
 /// As rounding in f32 does, the depth that k takes off goes with 1/w.
 ///
 /// Negative numbers move receivers away. Reversed depth and depth from −1 are taken care of: offsets are given as if depth
 /// grew away from the light, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "stored::Offset"))]
-pub struct Offset {
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "stored::ReceiverOffset")
+)]
+pub struct ReceiverOffset {
     towards: Towards,
     depth: f64,
 }
@@ -44,7 +48,7 @@ enum Towards {
     Relative(f64),
 }
 
-impl Offset {
+impl ReceiverOffset {
     /// Towards the light by `distance` world units.
     ///
     /// A light at a position moves no two receivers along parallel rays, and no matrix moves them all by one distance:
@@ -119,14 +123,14 @@ mod stored {
     use super::{InputError, Towards};
 
     #[derive(serde::Deserialize)]
-    pub(super) struct Offset {
+    pub(super) struct ReceiverOffset {
         towards: Towards,
         depth: f64,
     }
 
-    impl TryFrom<Offset> for super::Offset {
+    impl TryFrom<ReceiverOffset> for super::ReceiverOffset {
         type Error = InputError;
-        fn try_from(offset: Offset) -> Result<Self, InputError> {
+        fn try_from(offset: ReceiverOffset) -> Result<Self, InputError> {
             match offset.towards {
                 Towards::World(distance) => Self::world(distance),
                 Towards::Relative(part) => Self::relative(part),

@@ -2,7 +2,7 @@
 
 extern crate alloc;
 
-use crate::convex::{Body, Plane};
+use crate::convex::{ConvexBody, Plane};
 use crate::error::{InputError, check};
 use crate::focus::farthest_corner;
 use crate::scene::{Aabb, ConvexScene};
@@ -94,7 +94,7 @@ impl ConvexScene {
     }
 }
 
-impl Body {
+impl ConvexBody {
     /// The body as a convex polyhedron of parry3d, its vertices rounded to f32; `None` when it is empty or, as far as
     /// f32 can tell, flat.
     #[must_use]

@@ -1,7 +1,7 @@
 //! The light after the camera's perspective: its class, and the virtual camera.
 
 use crate::bounds::Interval;
-use crate::convex::{Body, Plane};
+use crate::convex::{ConvexBody, Plane};
 use crate::focus::Focus;
 use crate::light::Light;
 use crate::settings::Shift;
@@ -158,15 +158,15 @@ impl VirtualCamera {
     /// The camera for what is visible, or `None` when nothing is; moved back by [`Shift::Back`] as [`Focus::fit`] does.
     #[must_use]
     pub fn new(focus: &Focus<'_>, shift: Shift) -> Option<Self> {
-        let (view, visible) = (focus.view(), focus.visible());
-        let depths = |body: &Body| Self::depths(view, body.vertices().iter().copied());
+        let (view, visible) = (focus.view(), focus.receiver_volume());
+        let depths = |body: &ConvexBody| Self::depths(view, body.vertices().iter().copied());
         if visible.is_empty() {
             return None;
         }
         match shift {
             Shift::None => Some(Self::own(view, &depths(&visible))),
             Shift::Back(form) => {
-                let body = focus.body(form);
+                let body = focus.caster_volume(form);
                 (!body.is_empty()).then(|| Self::moved_back(view, &depths(&body)))
             }
         }

@@ -1,7 +1,7 @@
 //! Meshes cut so finely that a light sees every edge under a small angle.
 
 use crate::angle;
-use crate::error::{InputError, Problem, check};
+use crate::error::{InputError, InputErrorKind, check};
 use crate::numbers::vector;
 use glam::{DVec2, DVec3};
 use spade::handles::DirectedEdgeHandle;
@@ -12,7 +12,7 @@ use std::vec::Vec;
 
 /// Cuts triangles until a light at a position sees none of their edges under more than an angle: what a paraboloid map
 /// needs, whose triangles have straight edges where the mesh's are arcs
-/// ([`Paraboloid::largest_edge`](crate::Paraboloid::largest_edge)).
+/// ([`Paraboloid::largest_edge`](crate::omni::Paraboloid::largest_edge)).
 ///
 /// ```text
 ///     ∗ light                       an edge is cut into as many parts as it takes, of equal angles from the
@@ -34,17 +34,17 @@ use std::vec::Vec;
 /// - Triangles without area are cut as their edges are, so that they still close what they closed.
 ///
 /// ```
-/// use shadowfit::Refiner;
+/// use shadowfit::mesh::Tessellator;
 /// use shadowfit::glam::DVec3;
 ///
 /// let floor = [DVec3::new(-4.0, 0.0, -4.0), DVec3::new(0.0, 0.0, 4.0), DVec3::new(4.0, 0.0, -4.0)];
-/// let refined = Refiner::new((0.0, 2.0, 0.0), 0.1, 0.5)?.refine(&floor, &[[0, 1, 2]])?;
+/// let refined = Tessellator::new((0.0, 2.0, 0.0), 0.1, 0.5)?.tessellate(&floor, &[[0, 1, 2]])?;
 /// let positions: Vec<_> = floor.into_iter().chain(refined.added.iter().map(|added| added.position)).collect();
 /// println!("{} triangles of {} vertices", refined.triangles.len(), positions.len());
 /// # Ok::<(), shadowfit::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Refiner {
+pub struct Tessellator {
     light: DVec3,
     near: f64,
     angle: f64,
@@ -53,9 +53,9 @@ pub struct Refiner {
 
 /// A refined mesh. Its vertices are those of the mesh it was made from, in their order, and after them `added`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Refined {
+pub struct Tessellation {
     /// The new vertices.
-    pub added: Vec<Added>,
+    pub added: Vec<NewVertex>,
     /// The triangles, as indices of vertices.
     pub triangles: Vec<[u32; 3]>,
     /// For each triangle, the index of the triangle that it is a part of.
@@ -65,7 +65,7 @@ pub struct Refined {
 /// A new vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Added {
+pub struct NewVertex {
     /// Where it is, in world space.
     pub position: DVec3,
     /// The vertices of the mesh that it lies between; on an edge, the second and third are the same.
@@ -74,7 +74,7 @@ pub struct Added {
     pub weights: [f64; 3],
 }
 
-impl Refiner {
+impl Tessellator {
     /// The most triangles that come out, unless [`Self::with_limit`] says otherwise: 2²⁰.
     pub const DEFAULT_LIMIT: u32 = 1 << 20;
 
@@ -89,7 +89,7 @@ impl Refiner {
         let light = check::point("light", vector(light))?;
         let near = check::distance("near", near)?;
         if !(angle > 0.0 && angle <= core::f64::consts::FRAC_PI_2) {
-            return check::fail("angle", Problem::AngleOutOfRange);
+            return check::fail("angle", InputErrorKind::AngleOutOfRange);
         }
         Ok(Self { light, near, angle, limit: Self::DEFAULT_LIMIT as usize })
     }
@@ -105,12 +105,12 @@ impl Refiner {
     /// # Errors
     ///
     /// Names `"positions"` when one is not finite or too large, `"triangles"` when one has an index that there is no
-    /// position for ([`Problem::OutOfRange`]), and either when there would be more than the limit of what comes out
-    /// ([`Problem::TooMany`]).
-    pub fn refine(&self, positions: &[DVec3], triangles: &[[u32; 3]]) -> Result<Refined, InputError> {
+    /// position for ([`InputErrorKind::OutOfRange`]), and either when there would be more than the limit of what comes out
+    /// ([`InputErrorKind::TooMany`]).
+    pub fn tessellate(&self, positions: &[DVec3], triangles: &[[u32; 3]]) -> Result<Tessellation, InputError> {
         // All vertices, with as many added as there may be triangles and more, have an index.
         if positions.len() > u32::MAX as usize / 2 {
-            return check::fail("positions", Problem::TooMany);
+            return check::fail("positions", InputErrorKind::TooMany);
         }
         for (index, &position) in positions.iter().enumerate() {
             check::point("positions", position).map_err(|error| error.of_list("positions", index))?;
@@ -118,12 +118,14 @@ impl Refiner {
         let mut work = Work {
             refiner: self,
             positions,
-            refined: Refined { added: Vec::new(), triangles: Vec::new(), sources: Vec::new() },
+            refined: Tessellation { added: Vec::new(), triangles: Vec::new(), sources: Vec::new() },
             cuts: HashMap::new(),
         };
         for (source, &triangle) in (0..).zip(triangles) {
             if triangle.iter().any(|&index| index as usize >= positions.len()) {
-                return Err(InputError::new("triangles", Problem::OutOfRange).of_list("triangles", source as usize));
+                return Err(
+                    InputError::new("triangles", InputErrorKind::OutOfRange).of_list("triangles", source as usize)
+                );
             }
             work.triangle(triangle, source)?;
         }
@@ -156,7 +158,7 @@ impl Refiner {
             return Ok(cuts);
         }
         if parts >= self.limit as f64 {
-            return check::fail("triangles", Problem::TooMany);
+            return check::fail("triangles", InputErrorKind::TooMany);
         }
         let (first, last) = ((edge.first - self.light).length(), (edge.last - self.light).length());
         let mut done = 0;
@@ -183,7 +185,7 @@ impl Refiner {
             return Ok(());
         }
         if cuts.len() >= self.limit {
-            return check::fail("triangles", Problem::TooMany);
+            return check::fail("triangles", InputErrorKind::TooMany);
         }
         self.halve(edge, part.start..middle, cuts)?;
         cuts.push(middle);
@@ -254,9 +256,9 @@ impl Inside {
 
 /// A mesh being cut.
 struct Work<'a> {
-    refiner: &'a Refiner,
+    refiner: &'a Tessellator,
     positions: &'a [DVec3],
-    refined: Refined,
+    refined: Tessellation,
     /// The vertices on each edge that was cut, in its order, with their steps.
     cuts: HashMap<[u32; 2], Vec<(u64, u32)>>,
 }
@@ -329,7 +331,7 @@ impl Work<'_> {
             let mut vertices = Vec::with_capacity(cuts.len());
             for cut in cuts {
                 let weights = [part(STEPS - cut), part(cut), 0.0];
-                let added = Added { position: edge.at(cut), corners: [first, last, last], weights };
+                let added = NewVertex { position: edge.at(cut), corners: [first, last, last], weights };
                 vertices.push((cut, self.add(added)?));
             }
             self.cuts.insert(edge.ends, vertices);
@@ -337,10 +339,10 @@ impl Work<'_> {
         Ok(self.cuts.get(&edge.ends).map_or(&[], |vertices| vertices))
     }
 
-    fn add(&mut self, added: Added) -> Result<u32, InputError> {
+    fn add(&mut self, added: NewVertex) -> Result<u32, InputError> {
         // A vertex is in a triangle and cuts one in two, but those on edges may be counted ahead of their triangles.
         if self.refined.added.len() >= self.refiner.limit {
-            return check::fail("triangles", Problem::TooMany);
+            return check::fail("triangles", InputErrorKind::TooMany);
         }
         self.refined.added.push(added);
         Ok((self.positions.len() + self.refined.added.len() - 1) as u32)
@@ -348,7 +350,7 @@ impl Work<'_> {
 
     fn push(&mut self, triangle: [u32; 3], source: u32) -> Result<(), InputError> {
         if self.refined.triangles.len() >= self.refiner.limit {
-            return check::fail("triangles", Problem::TooMany);
+            return check::fail("triangles", InputErrorKind::TooMany);
         }
         self.refined.triangles.push(triangle);
         self.refined.sources.push(source);
@@ -358,7 +360,7 @@ impl Work<'_> {
     /// Triangulates what is between the vertices on the edges of a triangle, with more vertices inside as needed.
     fn fill(&mut self, corners: [u32; 3], vertices: Vec<Inside>, source: u32) -> Result<(), InputError> {
         // Coordinates are whole numbers and multiples of 2⁻¹², which spade takes.
-        let too_many = |_| InputError::new("triangles", Problem::TooMany);
+        let too_many = |_| InputError::new("triangles", InputErrorKind::TooMany);
         let mut triangulation = DelaunayTriangulation::<Inside>::bulk_load_stable(vertices).map_err(too_many)?;
         let place = |inside: &Inside| {
             let [a, b, c] = corners.map(|index| self.position(index));
@@ -391,7 +393,7 @@ impl Work<'_> {
             let Some(middle) = self.halfway(edge.from().data(), edge.to().data(), place) else { continue };
             let beside = edge.from().fix();
             if self.refined.triangles.len() + triangulation.num_inner_faces() > self.refiner.limit {
-                return check::fail("triangles", Problem::TooMany);
+                return check::fail("triangles", InputErrorKind::TooMany);
             }
             let count = triangulation.num_vertices();
             let vertex = triangulation.insert_with_hint(middle, beside).map_err(too_many)?;
@@ -408,7 +410,7 @@ impl Work<'_> {
         let mut indices = Vec::with_capacity(triangulation.num_vertices());
         for vertex in triangulation.vertices() {
             let inside = vertex.data();
-            let added = Added { position: place(inside), corners, weights: inside.weights() };
+            let added = NewVertex { position: place(inside), corners, weights: inside.weights() };
             indices.push((inside.index, added));
         }
         let mut names = Vec::with_capacity(indices.len());

@@ -2,11 +2,11 @@
 
 use core::fmt;
 
-/// Why a map is the uniform one although another was asked for ([`Map::refusal`](crate::Map::refusal)).
+/// Why a map is the uniform one although another was asked for ([`ShadowMap::fallback`](crate::ShadowMap::fallback)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
-pub enum Refusal {
+pub enum WarpFallback {
     /// The view is orthographic: there is no perspective to undo.
     NoPerspective,
     /// The light lies on the view's central ray, or shines along it: there is no direction on the map to warp along.
@@ -26,7 +26,7 @@ pub enum Refusal {
     Endless,
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for WarpFallback {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::NoPerspective => "the view has no perspective for a warp to undo",

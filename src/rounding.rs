@@ -14,7 +14,7 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 pub(crate) const UNITS: f64 = 8.0 / 16_777_216.0;
 
 /// What is no farther from a light at a position, along the axis, than this part of the way to the farthest of what is
-/// visible is beside it: a bias answers there for depth, but not for places ([`DepthBias`](crate::DepthBias)).
+/// visible is beside it: a bias answers there for depth, but not for places ([`DepthBias`](crate::depth::DepthBias)).
 pub(crate) const AWAY_FROM_LAMP: f64 = 1.0 / 16.0;
 
 /// The same in f64, for the dozen or two roundings between a point of the input and a row of the matrix.
@@ -320,7 +320,7 @@ pub(crate) struct MapNoise {
     pub(crate) least_w: f64,
     /// The least w of anything that is not beside a lamp.
     pub(crate) away_w: f64,
-    /// −z·l, z the row of depth, more than 0: what an [`Offset::relative`](crate::Offset::relative) of 1 takes off depth
+    /// −z·l, z the row of depth, more than 0: what an [`ReceiverOffset::relative`](crate::depth::ReceiverOffset::relative) of 1 takes off depth
     /// where w is 1. The matrix may have lost it where all this is far from the origin.
     pub(crate) to_light: f64,
     /// How much 1/w changes on a plane from a texel to the next one, across and down together, apart from the part

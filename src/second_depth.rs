@@ -23,7 +23,7 @@ use crate::solidity::Solidity;
 ///   too. Between layers it is half of the way to whatever is next, which need not be the solid's own far side: of two
 ///   slabs that reach into each other it may be the top of the lower one, a hair below.
 /// - **a sheet** has no thickness and is its own second surface: it is stored in first and in second depth, and virtual
-///   samples are exact where it is flat ([`Sheet::is_flat`](crate::Sheet)). Curved, it needs bias. Between layers it
+///   samples are exact where it is flat ([`OpenShape::is_flat`](crate::mesh::OpenShape)). Curved, it needs bias. Between layers it
 ///   needs neither where what lies behind it is far enough away; where sheets meet or cross, that is nowhere.
 /// - **sides turned away from the light.** Second depth stores them, so that they may come out lit or dark: they must be
 ///   made dark by their normals, as every shading model does. (A smooth normal that looks towards the light where the
@@ -57,7 +57,7 @@ use crate::solidity::Solidity;
 /// across a texel.
 ///
 /// In percent of the pixels, false shadow and false light together, uniform maps of 1024², all lights of a scene; the
-/// first depth with the bias of [`Map::bias`](crate::Map::bias), the others without any. Virtual samples are over 2 × 2
+/// first depth with the bias of [`ShadowMap::bias`](crate::ShadowMap::bias), the others without any. Virtual samples are over 2 × 2
 /// texels:
 ///
 /// | scene | first depth, bias | between layers | second depth, virtual samples | 3 × 3: first, bias | 3 × 3: between layers |
@@ -117,18 +117,18 @@ impl DepthTest {
     /// the distance at which its map begins, lies inside the solid, backs are all there is to cast.
     ///
     /// ```
-    /// use shadowfit::{Culling, DepthTest, Solidity};
+    /// use shadowfit::{depth::{Culling, DepthTest}, mesh::Solidity};
     ///
-    /// assert_eq!(DepthTest::Second.culling(Solidity::Solid), Culling::Front);
-    /// assert_eq!(DepthTest::Second.culling(Solidity::InsideOut), Culling::Back);
+    /// assert_eq!(DepthTest::Second.culling(Solidity::Watertight), Culling::Front);
+    /// assert_eq!(DepthTest::Second.culling(Solidity::Inverted), Culling::Back);
     /// assert_eq!(DepthTest::Second.culling(Solidity::Open), Culling::None);
     /// ```
     #[must_use]
     pub const fn culling(self, solidity: Solidity) -> Culling {
         match (self, solidity) {
             (Self::First | Self::BetweenLayers, _) | (Self::Second, Solidity::Open) => Culling::None,
-            (Self::Second, Solidity::Solid) => Culling::Front,
-            (Self::Second, Solidity::InsideOut) => Culling::Back,
+            (Self::Second, Solidity::Watertight) => Culling::Front,
+            (Self::Second, Solidity::Inverted) => Culling::Back,
         }
     }
 }

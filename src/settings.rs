@@ -2,14 +2,14 @@
 
 use crate::clip_space::ClipSpace;
 use crate::error::{Expected, InputError, check};
-use crate::focus::Form;
+use crate::focus::FocusForm;
 use crate::light::Light;
 use crate::view::View;
 use glam::{DVec2, DVec3};
 
 /// What the map's texels are spread by: the covector c that becomes w.
 ///
-/// A warp that cannot be made leaves the uniform map, and the map says why ([`Map::refusal`](crate::Map::refusal)).
+/// A warp that cannot be made leaves the uniform map, and the map says why ([`ShadowMap::fallback`](crate::ShadowMap::fallback)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Warp {
@@ -44,26 +44,26 @@ pub enum Warp {
     /// looks. A sun that moves turns the grid: move it in steps.
     ///
     /// **What f32 can do.** With [`Origin::Eye`] a point stays where it is among the texels to within
-    /// [`Window::rounding`](crate::Window::rounding), also a thousand kilometres from the origin. With [`Origin::World`]
+    /// [`Window::rounding`](crate::map::Window::rounding), also a thousand kilometres from the origin. With [`Origin::World`]
     /// coordinates far out are known to f32 by steps, and texels are made no smaller than those: by factors of two, so that
     /// the grid stays where it is but for every other line, as long as the camera does not travel as far again. What f32
     /// makes of a point's place in the map then is off by as much as the steps are, and by the same in each frame.
     ///
-    /// Not every light has such a map, see [`Refusal`](crate::Refusal); it is the uniform one then.
+    /// Not every light has such a map, see [`WarpFallback`](crate::WarpFallback); it is the uniform one then.
     Stable,
     /// The best of all single matrices that a search of this effort finds: over the warp, and over turn and shear of the window.
     ///
     /// The search looks for the least worst aliasing over the vertices of what is visible and, under a light at a position, over the
-    /// middles of its edges too ([`Map::aliasing_over`](crate::Map::aliasing_over) looks everywhere), from those of all closed forms
+    /// middles of its edges too ([`ShadowMap::aliasing_over`](crate::ShadowMap::aliasing_over) looks everywhere), from those of all closed forms
     /// on, of which the perspective warp comes with the back-shift of the settings. Points nearer to the eye than a 256th of the
     /// depth of the farthest, in the air before all that is seen most often, count as if they stood there.
     ///
     /// What is found is then mixed with the uniform map by as much as is best at points that stand for what is seen, where bias
     /// counts beside texels: a warp leans depth, and shadows begin farther behind their casters the more it does.
-    /// [`Map::weakening`](crate::Map::weakening) says by how much, and 1 where the uniform map is better.
+    /// [`ShadowMap::weakening`](crate::ShadowMap::weakening) says by how much, and 1 where the uniform map is better.
     ///
     /// From one frame to the next the search may end elsewhere; fitted from the map of the frame before
-    /// ([`Focus::fit_from`](crate::Focus::fit_from)) it stays, and costs less.
+    /// ([`Focus::fit_warm`](crate::Focus::fit_warm)) it stays, and costs less.
     Best(Effort),
 }
 
@@ -116,14 +116,14 @@ pub enum Shift {
     /// Where the view has it. Casters behind the eye are in the map all the same.
     None,
     /// Moved back until this form of H lies before it (Stamminger & Drettakis 2002, §4.2), which weakens the warp.
-    Back(Form),
+    Back(FocusForm),
 }
 
 impl Default for Shift {
     /// As the paper has it. On outdoor views the median of the worst aliasing, over the uniform map's, is 0.45 with it
     /// and 0.73 without (the `survey` example).
     fn default() -> Self {
-        Self::Back(Form::Paper)
+        Self::Back(FocusForm::ViewHull)
     }
 }
 
@@ -138,7 +138,7 @@ pub enum Origin {
     /// subtracted the eye from in f64.
     Eye,
     /// The light, where it is at a position, with the world's axes, and the eye where it is directional: the numbers are smallest
-    /// where they count. [`Map::origin`](crate::Map::origin) says what to subtract, in f64, before positions become f32.
+    /// where they count. [`ShadowMap::origin`](crate::ShadowMap::origin) says what to subtract, in f64, before positions become f32.
     ///
     /// A lamp's map is then the same wherever in the world the lamp stands, where in world space it loses with every power of
     /// ten one digit of what there is at its near distance.

@@ -2,12 +2,12 @@
 
 use crate::aliasing::Aliasing;
 use crate::bounds::{Interval, most};
-use crate::convex::{Body, Polyhedron};
-use crate::error::{InputError, Problem, check};
+use crate::convex::{ConvexBody, Polyhedron};
+use crate::error::{InputError, InputErrorKind, check};
 use crate::fit::{Empty, Outcome, fit_visible};
-use crate::focus::{Focus, Form};
+use crate::focus::{Focus, FocusForm};
 use crate::light::Light;
-use crate::map::Map;
+use crate::map::ShadowMap;
 use crate::perspective::VirtualCamera;
 use crate::scene::{Region, Scene};
 use crate::settings::{Settings, Shift, Warp};
@@ -21,7 +21,7 @@ use glam::DVec3;
 /// between them; [`Self::sharing`] says which it is. Each view's own [`Focus`] is an element of this.
 ///
 /// ```
-/// use shadowfit::{Form, Light, Outcome, Scene, Settings, SharedFocus, View};
+/// use shadowfit::{FocusForm, Light, Outcome, Scene, Settings, View, focus::SharedFocus};
 ///
 /// let eye = |x: f64| View::perspective((x, 1.7, 0.0), (x, 0.0, -1.0), (0.0, 1.0, 0.0), 1.5, 0.9, 0.1, 60.0);
 /// let sun = Light::directional((0.4, 1.0, 0.2))?;
@@ -31,7 +31,7 @@ use glam::DVec3;
 /// assert!(eyes.sharing(&settings).is_worth_it());
 /// if let Outcome::Map(map) = eyes.fit(&settings) {
 ///     // Draw what can cast on anything that either eye sees.
-///     let draws = eyes.bodies(Form::Tight).any(|body| body.meets_box((0.0, 0.0, -9.0), (1.0, 1.0, -8.0)));
+///     let draws = eyes.bodies(FocusForm::ReceiverHull).any(|body| body.intersects_aabb((0.0, 0.0, -9.0), (1.0, 1.0, -8.0)));
 ///     assert!(draws && eyes.aliasing_over(&map).is_some());
 /// }
 /// # Ok::<(), shadowfit::InputError>(())
@@ -80,10 +80,10 @@ impl<'a> SharedFocus<'a> {
     /// Names `"views"` when there are none or too many.
     pub fn new(views: &[View], light: &Light, scene: &Scene<'a>) -> Result<Self, InputError> {
         let Some((first, others)) = views.split_first() else {
-            return check::fail("views", Problem::Empty);
+            return check::fail("views", InputErrorKind::Empty);
         };
         if views.len() > Self::MAX {
-            return check::fail("views", Problem::TooMany);
+            return check::fail("views", InputErrorKind::TooMany);
         }
         let first = Focus::new(first, light, scene);
         let mut parts = [(); Self::MAX].map(|()| first.clone());
@@ -96,17 +96,17 @@ impl<'a> SharedFocus<'a> {
     /// Fits one map to all that the views see.
     ///
     /// Warps follow the first view where all of that lies before its camera, and pixels all count the same where not.
-    /// [`Origin::Eye`](crate::Origin::Eye) is the first view's, [`Map::aliasing`] and the like tell of the first view, and
+    /// [`Origin::Eye`](crate::Origin::Eye) is the first view's, [`ShadowMap::aliasing`] and the like tell of the first view, and
     /// [`Self::aliasing_over`] of all. A stable map has room for all views as they stand to each other, and keeps its grid
     /// while that stays the same.
     #[must_use]
     pub fn fit(&self, settings: &Settings) -> Outcome {
         let mut visible = self.visible();
         if visible.is_empty() {
-            return Outcome::Empty(Empty::NothingVisible);
+            return Outcome::Empty(Empty::NoReceivers);
         }
         let Some(casters) = self.casters() else {
-            return Outcome::Empty(Empty::NothingCasts);
+            return Outcome::Empty(Empty::NoCasters);
         };
         let first = *self[0].view();
         let around = (self.len > 1).then(|| self.ball(settings.image_height()));
@@ -117,27 +117,27 @@ impl<'a> SharedFocus<'a> {
             _ => None,
         };
         match fit_visible(&whole, &mut visible, &casters, depths, None, settings) {
-            Outcome::Map(map) => Outcome::Map(Map { view: first, ..map }),
+            Outcome::Map(map) => Outcome::Map(ShadowMap { view: first, ..map }),
             other => other,
         }
     }
 
     /// The focus bodies of the views in one of their forms: what meets none of them need not be drawn.
-    pub fn bodies(&self, form: Form) -> impl Iterator<Item = Body> {
-        self.iter().map(move |part| part.body(form))
+    pub fn bodies(&self, form: FocusForm) -> impl Iterator<Item = ConvexBody> {
+        self.iter().map(move |part| part.caster_volume(form))
     }
 
     /// The worst aliasing of a map of [`Self::fit`] over all that the views see, each point in the pixels of the view that
-    /// sees it, and the mean of the means over what each sees. `None` where nothing is visible. See [`Map::aliasing_over`].
+    /// sees it, and the mean of the means over what each sees. `None` where nothing is visible. See [`ShadowMap::aliasing_over`].
     #[must_use]
-    pub fn aliasing_over(&self, map: &Map) -> Option<Aliasing> {
+    pub fn aliasing_over(&self, map: &ShadowMap) -> Option<Aliasing> {
         let (mut found, mut sum, mut count): (Option<Aliasing>, _, _) = (None, 0.0, 0.0);
         for part in self.iter() {
             let Some(one) = seen_by(part, map).aliasing_over(part) else { continue };
             (sum, count) = (sum + one.mean, count + 1.0);
-            let at_most = most(one.at_most, found.map_or(0.0, |found| found.at_most));
+            let upper_bound = most(one.upper_bound, found.map_or(0.0, |found| found.upper_bound));
             let worst = found.filter(|found| found.worst >= one.worst).unwrap_or(one);
-            found = Some(Aliasing { at_most, ..worst });
+            found = Some(Aliasing { upper_bound, ..worst });
         }
         found.map(|found| Aliasing { mean: sum / count, ..found })
     }
@@ -200,7 +200,7 @@ impl<'a> SharedFocus<'a> {
     }
 
     /// The depths of H before a view, of all views together.
-    fn depths(&self, form: Form, view: &View) -> Interval {
+    fn depths(&self, form: FocusForm, view: &View) -> Interval {
         let (mut body, mut depths) = (Polyhedron::EMPTY, Interval::EMPTY);
         for part in self.iter() {
             part.cut_body(&mut body, form, |_, _| ());
@@ -246,16 +246,16 @@ fn around((centre, radius): (DVec3, f64), (other, its): (DVec3, f64)) -> (DVec3,
 }
 
 /// A map in the pixels of a view.
-fn seen_by(part: &Focus<'_>, map: &Map) -> Map {
-    Map { view: *part.view(), ..*map }
+fn seen_by(part: &Focus<'_>, map: &ShadowMap) -> ShadowMap {
+    ShadowMap { view: *part.view(), ..*map }
 }
 
 /// The number of texels that brings those of a map to the size of pixels, over what it has.
-fn cost(map: &Map, parts: &[Focus<'_>]) -> f64 {
+fn cost(map: &ShadowMap, parts: &[Focus<'_>]) -> f64 {
     let (mut worst, mut sum, mut count) = (0.0, 0.0, 0.0);
     for part in parts {
         let map = seen_by(part, map);
-        for &point in part.visible().vertices() {
+        for &point in part.receiver_volume().vertices() {
             // Points nearer to a light than anything casts need not be right.
             if map.light.position().is_some_and(|position| position.distance(point) < map.light.near()) {
                 continue;

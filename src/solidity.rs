@@ -2,7 +2,7 @@
 
 extern crate alloc;
 
-use crate::error::{InputError, Problem, check};
+use crate::error::{InputError, InputErrorKind, check};
 use crate::numbers::vector;
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -18,9 +18,9 @@ use glam::DVec3;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Solidity {
     /// Closed, and the fronts of its triangles, counter-clockwise, look outwards.
-    Solid,
+    Watertight,
     /// Closed, and the fronts look inwards.
-    InsideOut,
+    Inverted,
     /// A sheet, or a mesh with a hole, or one that is not wound alike: it has no inside.
     Open,
 }
@@ -49,13 +49,13 @@ pub struct SolidityReport {
     /// T-junction, so their edges count like all others.
     pub without_area: usize,
     /// Its shape as a sheet, where it is open.
-    pub sheet: Option<Sheet>,
+    pub sheet: Option<OpenShape>,
 }
 
 /// The shape of an open mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Sheet {
+pub struct OpenShape {
     /// Whether each of its parts lies in a plane, as far as coordinates in f32 can tell. Virtual samples are exact on
     /// planes: a flat sheet needs no bias, a curved one does.
     pub is_flat: bool,
@@ -69,8 +69,8 @@ impl Solidity {
     ///
     /// Only the positions that the triangles use are looked at, so that the triangles of an object can be given with the
     /// positions of a whole scene. It takes `O(n log n)` for n triangles, and memory for them: once for a mesh, when it
-    /// is loaded. Moving, turning and scaling a mesh changes nothing; mirroring it exchanges [`Self::Solid`] and
-    /// [`Self::InsideOut`].
+    /// is loaded. Moving, turning and scaling a mesh changes nothing; mirroring it exchanges [`Self::Watertight`] and
+    /// [`Self::Inverted`].
     ///
     /// A part that crosses itself or another is taken for what its winding says. Every triangle counts: one that is there
     /// twice, or one without area that hangs on an edge, leaves edges that do not close. Files have such triangles, and who
@@ -82,12 +82,12 @@ impl Solidity {
     /// `"positions"` when one that is used is not finite or too large.
     ///
     /// ```
-    /// use shadowfit::Solidity;
+    /// use shadowfit::mesh::Solidity;
     /// use shadowfit::glam::Vec3;
     ///
     /// let corners = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
     /// let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
-    /// assert_eq!(Solidity::of(&corners, &faces)?.solidity, Solidity::Solid);
+    /// assert_eq!(Solidity::of(&corners, &faces)?.solidity, Solidity::Watertight);
     /// assert_eq!(Solidity::of(&corners, &faces[1..])?.solidity, Solidity::Open);
     /// # Ok::<(), shadowfit::InputError>(())
     /// ```
@@ -98,15 +98,15 @@ impl Solidity {
         /// Three corners of each triangle must be countable in 32 bits.
         const MOST_TRIANGLES: usize = 1_000_000_000;
         if triangles.is_empty() {
-            return check::fail("triangles", Problem::Empty);
+            return check::fail("triangles", InputErrorKind::Empty);
         }
         if triangles.len() > MOST_TRIANGLES {
-            return check::fail("triangles", Problem::TooMany);
+            return check::fail("triangles", InputErrorKind::TooMany);
         }
         let mut corners = Vec::with_capacity(3 * triangles.len());
         for (at, &index) in triangles.iter().flatten().enumerate() {
             let Some(&position) = positions.get(index as usize) else {
-                return Err(InputError::new("triangles", Problem::OutOfRange)
+                return Err(InputError::new("triangles", InputErrorKind::OutOfRange)
                     .got(index.into())
                     .of_list("triangles", at / 3));
             };
@@ -182,7 +182,7 @@ impl Faces {
             (report.solidity, report.reversed_parts) = direction_of_all(&parts);
         }
         if report.solidity == Solidity::Open {
-            report.sheet = Some(Sheet { is_flat: parts.iter().all(|part| self.is_flat(part)), bend });
+            report.sheet = Some(OpenShape { is_flat: parts.iter().all(|part| self.is_flat(part)), bend });
         }
         report
     }
@@ -340,8 +340,8 @@ fn direction_of_all(parts: &[Part]) -> (Solidity, usize) {
     let reversed = reversed.filter(|part| !alike.iter().any(|around| part.is_within(around))).count();
     let solidity = match (alike.is_empty() || reversed > 0, volume > 0.0) {
         (true, _) => Solidity::Open,
-        (false, true) => Solidity::Solid,
-        (false, false) => Solidity::InsideOut,
+        (false, true) => Solidity::Watertight,
+        (false, false) => Solidity::Inverted,
     };
     (solidity, reversed)
 }

@@ -1,7 +1,7 @@
 //! Points drawn into a map: the exact bounds of balls and discs in texels.
 
 use crate::error::check;
-use crate::map::Map;
+use crate::map::ShadowMap;
 use crate::numbers::vector;
 use glam::{DVec2, DVec3};
 
@@ -96,7 +96,7 @@ impl Splat {
     }
 }
 
-impl Map {
+impl ShadowMap {
     /// The bounds of a ball in the map, its centre and radius in world space; they are exact, as balls and not as boxes.
     ///
     /// `None` where the ball reaches a point with w ≤ 0, as next to a lamp: a part of it is then infinitely far away in

@@ -17,7 +17,7 @@ use crate::focus::Focus;
 use crate::frame;
 use crate::light::Light;
 use crate::rays::{Rays, direction_between};
-use crate::refusal::Refusal;
+use crate::refusal::WarpFallback;
 use crate::settings::Settings;
 use glam::{DVec2, DVec3};
 
@@ -63,14 +63,14 @@ impl Stable {
         focus: &Focus<'_>,
         visible: impl Iterator<Item = DVec3>,
         settings: &Settings,
-    ) -> Result<Self, Refusal> {
+    ) -> Result<Self, WarpFallback> {
         match focus.light().position() {
             None => Self::of_direction(focus, settings),
             Some(position) => Self::of_region(focus.light(), position, visible, settings),
         }
     }
 
-    fn of_direction(focus: &Focus<'_>, settings: &Settings) -> Result<Self, Refusal> {
+    fn of_direction(focus: &Focus<'_>, settings: &Settings) -> Result<Self, WarpFallback> {
         let axis = -focus.light().homogeneous().truncate();
         let (u_axis, v_axis) = frame::of_light(axis);
         let across = |point: DVec3| DVec2::new(u_axis.dot(point), v_axis.dot(point));
@@ -87,7 +87,7 @@ impl Stable {
             Rectangle::over(&u, &v)
         });
         let Rectangle { centre, half } = match (of_view, of_scene) {
-            (None, None) => return Err(Refusal::Endless),
+            (None, None) => return Err(WarpFallback::Endless),
             (Some(one), None) | (None, Some(one)) => one,
             // What is visible is in both.
             (Some(view), Some(scene)) => {
@@ -109,8 +109,8 @@ impl Stable {
         position: DVec3,
         mut visible: impl Iterator<Item = DVec3>,
         settings: &Settings,
-    ) -> Result<Self, Refusal> {
-        let (axes, tangents) = light.frustum().ok_or(Refusal::NoRegion)?;
+    ) -> Result<Self, WarpFallback> {
+        let (axes, tangents) = light.frustum().ok_or(WarpFallback::NoRegion)?;
         // The cosine at the edges of the pyramid, where it is least.
         let margin = tangents.extend(1.0).length().recip();
         let [.., axis] = axes;
@@ -118,7 +118,7 @@ impl Stable {
             direction_between(position, point).is_some_and(|direction| axis.dot(direction) >= Rays::MIN_MARGIN)
         };
         if margin < Rays::MIN_MARGIN || !visible.all(is_in_front) {
-            return Err(Refusal::NoRegion);
+            return Err(WarpFallback::NoRegion);
         }
         Ok(Self { margin, ..Self::with_room(axes, tangents, 0.0, settings) })
     }

@@ -3,18 +3,18 @@
 use crate::bias::checked_reach;
 use crate::bounds::least;
 use crate::error::InputError;
-use crate::map::Map;
+use crate::map::ShadowMap;
 use crate::quality::DepthFormat;
 
 /// How far rasterisers move a vertex in a map, in texels: to a grid of a 256th, by half of a step, and as much again for
 /// the interpolation of depth across a triangle.
-pub const SUBTEXEL: f64 = 1.0 / 256.0;
+pub const RASTER_GRID: f64 = 1.0 / 256.0;
 
 /// The largest part of the depth range that is allowed for: with more than all of it, everything is lit already.
 const MOST_OF_RANGE: f64 = 2.0;
 
 /// How much of the depth range a comparison must allow for so that a plane does not shadow itself by rounding
-/// ([`Map::comparison_tolerance`]): what remains of a bias where virtual samples do the rest.
+/// ([`ShadowMap::comparison_tolerance`]): what remains of a bias where virtual samples do the rest.
 ///
 /// At a point with the given w, on a plane whose depth changes by (p, q) from one texel to the next, it is
 ///
@@ -25,7 +25,7 @@ const MOST_OF_RANGE: f64 = 2.0;
 /// The four numbers, in this order, are what the shader functions of the `wgsl` feature take ([`Self::to_array`]).
 ///
 /// ```
-/// use shadowfit::{DepthFormat, Light, Scene, Settings, TangentPlane, View, Warp, fit};
+/// use shadowfit::{DepthFormat, Light, Scene, Settings, View, Warp, fit, depth::TangentPlane};
 ///
 /// let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 50.0)?;
 /// let lamp = Light::spot((0.0, 4.0, -5.0), (0.0, -1.0, -0.2), 0.7, 0.01, 30.0)?;
@@ -43,7 +43,7 @@ const MOST_OF_RANGE: f64 = 2.0;
 /// # Derivation
 ///
 /// What is compared are the depth stored for a plane at the middle T of a texel, and the plane's depth there as it follows
-/// from the depth at a point R. f32 puts a point's depth off by at most ε = min(α/w, β) ([`Map::depth_rounding`]).
+/// from the depth at a point R. f32 puts a point's depth off by at most ε = min(α/w, β) ([`ShadowMap::depth_rounding`]).
 ///
 /// *What is stored.* On a plane 1/w is an affine function of the place in the map, and ε a concave one of 1/w. The corners
 /// of a triangle are off by ε each, and T is a mean of them, so that what is stored is off by no more than ε(T), if a corner
@@ -59,7 +59,7 @@ const MOST_OF_RANGE: f64 = 2.0;
 /// ```
 ///
 /// Without a warp, under a directional light, that is 2 α/w. α/−z·l is the part of its distance to the lamp by which f32
-/// moves a point, some millionths; it is taken to be no more than all of it. The rasteriser's grid adds [`SUBTEXEL`] to what multiplies the slopes.
+/// moves a point, some millionths; it is taken to be no more than all of it. The rasteriser's grid adds [`RASTER_GRID`] to what multiplies the slopes.
 ///
 /// The w that a shader reads is itself off, by as small a part as depth is: the room for terms of second order that α has
 /// covers it wherever f32 loses less than a quarter of w.
@@ -77,10 +77,10 @@ pub struct ComparisonTolerance {
 }
 
 impl ComparisonTolerance {
-    /// The same everywhere but for [`SUBTEXEL`] of the slopes: for depths that f32 puts off by nothing more.
+    /// The same everywhere but for [`RASTER_GRID`] of the slopes: for depths that f32 puts off by nothing more.
     #[must_use]
     pub const fn constant(constant: f64) -> Self {
-        Self { constant, over_w: 0.0, most: 0.0, slope: SUBTEXEL }
+        Self { constant, over_w: 0.0, most: 0.0, slope: RASTER_GRID }
     }
 
     /// Where w is that, on a plane across the light; the most there is where w ≤ 0, outside of the map.
@@ -96,9 +96,9 @@ impl ComparisonTolerance {
     }
 }
 
-impl Map {
+impl ShadowMap {
     /// What a comparison must allow for so that no plane shadows itself by rounding where virtual samples
-    /// ([`TangentPlane`](crate::TangentPlane)) take the place of a bias, or where layers are told apart.
+    /// ([`TangentPlane`](crate::depth::TangentPlane)) take the place of a bias, or where layers are told apart.
     ///
     /// `reach` is how far from a point the middles of the texels lie that are compared for it, at most, across and down, in
     /// texels, as for [`Self::bias`]: 0.5 for one texel, 1 for 2 × 2, n/2 for n × n.
@@ -119,7 +119,7 @@ impl Map {
             constant: 0.5 * format.step(1.0) + of_warp.min(noise.depth.most).min(MOST_OF_RANGE),
             over_w: (2.0 * noise.depth.over_w).min(MOST_OF_RANGE),
             most: (2.0 * noise.depth.most).min(MOST_OF_RANGE),
-            slope: SUBTEXEL + part.min(reach),
+            slope: RASTER_GRID + part.min(reach),
         })
     }
 }

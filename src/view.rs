@@ -4,7 +4,7 @@ use crate::angle;
 use crate::bounds::{Interval, least, most};
 use crate::clip_space::DepthRange;
 use crate::convex::{Plane, matrix_from_rows};
-use crate::error::{Hint, InputError, MIN_DISTANCE, Problem, check};
+use crate::error::{Hint, InputError, InputErrorKind, MIN_DISTANCE, check};
 use crate::frustum::steps;
 use crate::numbers::vector;
 use glam::{DMat4, DVec2, DVec3};
@@ -126,7 +126,7 @@ impl View {
     /// and y in OpenXR and OpenVR. `near` and `far` are depths along `forward` in world units; `far` may be infinite.
     ///
     /// ```
-    /// use shadowfit::{Tangents, View};
+    /// use shadowfit::{View, input::Tangents};
     ///
     /// // An `XrFovf` of the left eye.
     /// let tangents = Tangents::from_angles(-0.94, 0.77, -0.88, 0.83)?;
@@ -168,19 +168,19 @@ impl View {
     /// # Errors
     ///
     /// Names `"near"` or `"far"` when it is NaN, `"far"` when it is no more than `near`, and the one that lies beyond the
-    /// other end of the view when the range misses it ([`Problem::OutsideView`]).
+    /// other end of the view when the range misses it ([`InputErrorKind::OutsideView`]).
     pub fn narrowed(&self, near: f64, far: f64) -> Result<Self, InputError> {
         for (field, depth) in [("near", near), ("far", far)] {
             if depth.is_nan() {
-                return Err(InputError::new(field, Problem::NotFinite).got(depth));
+                return Err(InputError::new(field, InputErrorKind::NotFinite).got(depth));
             }
         }
         check::above("far", far, "near", near)?;
         if near >= self.far {
-            return Err(InputError::new("near", Problem::OutsideView).got(near));
+            return Err(InputError::new("near", InputErrorKind::OutsideView).got(near));
         }
         if far <= self.near {
-            return Err(InputError::new("far", Problem::OutsideView).got(far));
+            return Err(InputError::new("far", InputErrorKind::OutsideView).got(far));
         }
         Self { near: most(near, self.near), far: least(far, self.far), ..*self }.checked()
     }
@@ -203,7 +203,7 @@ impl View {
         let corner = |corner: DVec2| check::point("frame", corner.extend(0.0)).map(DVec3::truncate);
         let (frame_min, frame_max) = (corner(self.frame_min)?, corner(self.frame_max)?);
         if !(frame_min.x < frame_max.x && frame_min.y < frame_max.y) {
-            return check::fail("frame", Problem::OutOfOrder);
+            return check::fail("frame", InputErrorKind::OutOfOrder);
         }
         let size = frame_max - frame_min;
         check::distance("frame", size.x).and(check::distance("frame", size.y))?;
@@ -277,7 +277,7 @@ impl View {
     /// the far plane, infinite where that is.
     ///
     /// ```
-    /// use shadowfit::{DepthRange, View};
+    /// use shadowfit::{View, input::DepthRange};
     ///
     /// let view = View::perspective((0.0, 1.7, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, f64::INFINITY)?;
     /// // Reversed, without end: the buffer holds near / depth.
@@ -428,7 +428,7 @@ impl Axes {
         let right = forward.cross(up);
         // Below this the sine of the angle is mostly rounding.
         if right.length() < 1e-7 {
-            return check::fail("up", Problem::Parallel);
+            return check::fail("up", InputErrorKind::Parallel);
         }
         let right = right.normalize();
         Ok(Self { right, up: right.cross(forward), forward })

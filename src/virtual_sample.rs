@@ -1,14 +1,14 @@
 //! Virtual samples: a receiver's own plane, asked for its depth where a map was sampled.
 
 use crate::convex::Plane;
-use crate::map::Map;
+use crate::map::ShadowMap;
 use crate::tolerance::ComparisonTolerance;
 use glam::{DVec2, DVec3};
 
 /// The least sine of the angle between the light and a plane for which the plane's slope is taken as it is: 1/256, a
 /// quarter of a degree. A matte surface at that angle has less than a step of 8 bits of the light's brightness, so that
 /// no shadow shows on it; and the slope, which has a pole where the light sees the plane from its edge, stays bounded.
-pub const LEAST_INCIDENCE: f64 = 1.0 / 256.0;
+pub const MIN_SIN_INCIDENCE: f64 = 1.0 / 256.0;
 
 /// The tangent plane of a receiver, as a map sees it.
 ///
@@ -42,13 +42,13 @@ pub const LEAST_INCIDENCE: f64 = 1.0 / 256.0;
 /// ```
 ///
 /// ∇u × ∇v points along the light's ray, so that the denominator vanishes where the light sees the plane from its edge,
-/// and only there; see [`LEAST_INCIDENCE`].
+/// and only there; see [`MIN_SIN_INCIDENCE`].
 ///
 /// # What they cannot know
 ///
 /// They are as exact as what a rasteriser stores. Rasterisers set up the slopes of depth of a triangle in f32, with errors
 /// that grow with its length and over its width in texels: of strips like kerbs, 0.7 texels wide and a thousand long, the
-/// stored depth was found off by what it changes in a tenth of a texel, 25 times what [`SUBTEXEL`](crate::SUBTEXEL) allows, and up to 0.18 %
+/// stored depth was found off by what it changes in a tenth of a texel, 25 times what [`RASTER_GRID`](crate::depth::RASTER_GRID) allows, and up to 0.18 %
 /// of a street shadowed itself (`render-check street --size 512 --filter virtual2`). Cut into 40 pieces along their length,
 /// the same strips did so nowhere. No tolerance is widened for them, as it would be for all: such triangles are better
 /// cut. Averaged over 3 × 3 texels the errors did not show.
@@ -66,7 +66,7 @@ pub struct TangentPlane {
 /// How a comparison of several texels came out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Rule {
+pub enum Decision {
     /// The point passes against every texel: it is lit.
     AllPass,
     /// It passes against none: it is in shadow.
@@ -78,11 +78,11 @@ pub enum Rule {
 /// What a test against several texels says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Sampled {
+pub struct ShadowSample {
     /// The share of light that arrives, 0 to 1.
     pub share: f64,
     /// The rule that decided.
-    pub rule: Rule,
+    pub rule: Decision,
 }
 
 impl TangentPlane {
@@ -90,7 +90,7 @@ impl TangentPlane {
     /// `None` where the point lies behind the map (w ≤ 0) or the plane has no direction: a normal that is zero or not
     /// finite.
     #[must_use]
-    pub fn new(map: &Map, point: DVec3, normal: DVec3) -> Option<Self> {
+    pub fn new(map: &ShadowMap, point: DVec3, normal: DVec3) -> Option<Self> {
         let clip = map.settings().clip();
         let [u, v, z, w] = clip.texture_rows_from_wgpu(map.rows);
         let at = w.at(point);
@@ -142,9 +142,9 @@ impl TangentPlane {
 
     /// Tests the 2 × 2 texels around the point, blended by its distance from their centres, as a comparison sampler does.
     ///
-    /// `tolerance` is [`Map::comparison_tolerance`] for a reach of 1; `stored` is the depth that the map holds for a texel, by column and row in texture space, from 0 to one less than the map's width and height.
+    /// `tolerance` is [`ShadowMap::comparison_tolerance`] for a reach of 1; `stored` is the depth that the map holds for a texel, by column and row in texture space, from 0 to one less than the map's width and height.
     #[must_use]
-    pub fn blended(&self, tolerance: &ComparisonTolerance, stored: impl Fn(u32, u32) -> f64) -> Sampled {
+    pub fn blended(&self, tolerance: &ComparisonTolerance, stored: impl Fn(u32, u32) -> f64) -> ShadowSample {
         let corner = self.place * self.sides - 0.5;
         let part = corner - corner.floor();
         let weight = |x: u32, y: u32| {
@@ -157,7 +157,12 @@ impl TangentPlane {
     /// Tests the `taps` × `taps` texels around the point, each counted alike: percentage-closer filtering (Reeves, Salesin
     /// & Cook 1987). One tap is the nearest texel, at which the virtual sample always decides. None counts as one. `tolerance` is that for a reach of half of the taps.
     #[must_use]
-    pub fn mean(&self, taps: u32, tolerance: &ComparisonTolerance, stored: impl Fn(u32, u32) -> f64) -> Sampled {
+    pub fn mean(
+        &self,
+        taps: u32,
+        tolerance: &ComparisonTolerance,
+        stored: impl Fn(u32, u32) -> f64,
+    ) -> ShadowSample {
         let taps = taps.max(1);
         // The middle of an odd square is a texel, that of an even one a corner between texels.
         let first = (self.place * self.sides - 0.5 * f64::from(taps - 1)).floor();
@@ -181,7 +186,7 @@ impl TangentPlane {
         weight: impl Fn(u32, u32) -> f64,
         tolerance: &ComparisonTolerance,
         stored: impl Fn(u32, u32) -> f64,
-    ) -> Sampled {
+    ) -> ShadowSample {
         let tolerance = self.tolerance(tolerance);
         let away = if self.reversed { -1.0 } else { 1.0 };
         let passes = |depth: f64, stored: f64| away * (depth.clamp(0.0, 1.0) - stored) <= tolerance;
@@ -196,9 +201,9 @@ impl TangentPlane {
         }
         // A single centre surrounds nothing.
         match (count > 1, point_passes) {
-            (true, passed) if passed == count => Sampled { share: 1.0, rule: Rule::AllPass },
-            (true, 0) => Sampled { share: 0.0, rule: Rule::NonePass },
-            _ => Sampled { share: share.min(1.0), rule: Rule::VirtualSamples },
+            (true, passed) if passed == count => ShadowSample { share: 1.0, rule: Decision::AllPass },
+            (true, 0) => ShadowSample { share: 0.0, rule: Decision::NonePass },
+            _ => ShadowSample { share: share.min(1.0), rule: Decision::VirtualSamples },
         }
     }
 }
@@ -206,7 +211,7 @@ impl TangentPlane {
 /// The changes of z with u and v on a plane across a unit normal, from the gradients of u, v and z.
 fn slopes([u, v, z]: [DVec3; 3], normal: DVec3) -> DVec2 {
     let along = u.cross(v);
-    let least = LEAST_INCIDENCE * along.length();
+    let least = MIN_SIN_INCIDENCE * along.length();
     let facing = normal.dot(along);
     let facing = if facing < 0.0 { facing.min(-least) } else { facing.max(least) };
     DVec2::new(normal.dot(z.cross(v)), normal.dot(u.cross(z))) / facing

@@ -10,12 +10,14 @@ use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use shadowfit::{Aabb, Aliasing, Body, Focus, Light, Map, Scene, Settings, Shift, View, Warp};
+use shadowfit::{
+    Aabb, Focus, Light, Scene, Settings, ShadowMap, View, Warp, focus::ConvexBody, map::Aliasing, warp::Shift,
+};
 
 /// The aliasing at a point of R, which rounding may leave before the near plane by some of its distance: not by more,
 /// where coordinates are large against it.
-fn in_view(map: &Map, view: &View, point: DVec3) -> f64 {
-    let before = if view.lens() == shadowfit::Lens::Perspective {
+fn in_view(map: &ShadowMap, view: &View, point: DVec3) -> f64 {
+    let before = if view.lens() == shadowfit::input::Lens::Perspective {
         view.depth(point) / view.depth(point).max(view.near())
     } else {
         1.0
@@ -29,7 +31,7 @@ fn no_point_of_r_has_more_than_is_said_and_one_has_the_worst() {
         let together = Together::of(&case);
         let focus = together.focus();
         let Some(map) = focus.fit(&settings).map().copied() else { return };
-        let visible = focus.visible();
+        let visible = focus.receiver_volume();
         let found = map.aliasing_over(&focus).expect("what is visible has aliasing");
         // A product and a quotient.
         assert_relative_eq!(
@@ -47,15 +49,15 @@ fn no_point_of_r_has_more_than_is_said_and_one_has_the_worst() {
         for point in points_of(&visible, seed).into_iter().filter(|point| !in_corner || together.is_served(*point))
         {
             let there = in_view(&map, &together.view, point);
-            assert!(there <= found.at_most, "{there} at {point}, {found:?}");
+            assert!(there <= found.upper_bound, "{there} at {point}, {found:?}");
         }
-        assert!(found.at_most > found.worst);
-        assert!(found.mean > 0.0 && found.mean <= found.at_most, "{found:?}");
+        assert!(found.upper_bound > found.worst);
+        assert!(found.mean > 0.0 && found.mean <= found.upper_bound, "{found:?}");
     });
 }
 
 /// The mean over many points of a body, and the standard deviation of that: points at random in its bounds.
-fn sampled(map: &Map, body: &Body, count: usize) -> (f64, f64) {
+fn sampled(map: &ShadowMap, body: &ConvexBody, count: usize) -> (f64, f64) {
     let (min, max) = body.bounds().unwrap();
     let mut random = StdRng::seed_from_u64(11);
     let (mut sum, mut squares, mut inside) = (0.0, 0.0, 0.0_f64);
@@ -95,7 +97,7 @@ fn the_mean_is_that_of_many_points() {
         for warp in [Warp::Uniform, Warp::Perspective] {
             let map = *focus.fit(&Settings::default().with_warp(warp)).map().unwrap();
             let found = map.aliasing_over(&focus).unwrap();
-            let (mean, deviation) = sampled(&map, &focus.visible(), 500_000);
+            let (mean, deviation) = sampled(&map, &focus.receiver_volume(), 500_000);
             assert!(deviation < 4e-3 * mean, "too few points: {mean} ± {deviation}");
             let off = (found.mean - mean).abs();
             assert!(off < 5.0 * deviation + 1e-3 * mean, "{light:?}, {warp:?}: {found:?}, {mean} ± {deviation}");
@@ -148,7 +150,7 @@ fn vertices_decide_in_uniform_maps_of_the_sun() {
         let Some(map) = focus.fit(&Settings::default().with_warp(Warp::Uniform)).map().copied() else { return };
         if together.light.position().is_none() {
             let found = map.aliasing_over(&focus).unwrap();
-            let vertices = focus.visible();
+            let vertices = focus.receiver_volume();
             let worst = vertices.vertices().iter().map(|&point| in_view(&map, &together.view, point));
             // Rounding as above.
             assert!(found.worst <= worst.fold(0.0, f64::max) * (1.0 + 1e-9), "{found:?}");
@@ -209,7 +211,7 @@ fn only_receivers_that_are_listed_count() {
         assert_eq!(over(&[behind, ground]), over(&[ground]));
         let (on_house, both) = (over(&[house]).unwrap(), over(&[ground, house]).unwrap());
         assert_eq!(both.worst, on_ground.worst.max(on_house.worst));
-        assert!(both.worst <= all.at_most);
+        assert!(both.worst <= all.upper_bound);
         let (low, high) = (on_ground.mean.min(on_house.mean), on_ground.mean.max(on_house.mean));
         assert!(low <= both.mean && both.mean <= high, "{on_ground:?}, {on_house:?}, {both:?}");
 

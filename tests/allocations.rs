@@ -3,8 +3,12 @@
 use allocation_counter::measure;
 use shadowfit::glam::{DVec3, Vec3, Vec4};
 use shadowfit::{
-    Aabb, ClipSpace, ConvexScene, Cuts, DepthFormat, Effort, Focus, Form, Layout, Light, Origin, Outcome, Scene,
-    Settings, SharedFocus, Shift, Slices, Split, View, Warp, classify, fit,
+    Aabb, ClipSpace, DepthFormat, Effort, Focus, FocusForm, Light, Origin, Outcome, Scene, Settings, View, Warp,
+    cascades::{CascadeLayout, CascadeSplits, Cascades, SplitScheme},
+    fit,
+    focus::SharedFocus,
+    input::ConvexScene,
+    warp::{Shift, classify},
 };
 use std::hint::black_box;
 
@@ -46,7 +50,7 @@ fn boxes() -> Vec<Aabb> {
 
 fn settings() -> Vec<Settings> {
     let clips = [ClipSpace::WGPU, ClipSpace::VULKAN.reversed(), ClipSpace::OPENGL, ClipSpace::OPENGL.reversed()];
-    let shifts = [Shift::None, Shift::Back(Form::Tight), Shift::Back(Form::Paper)];
+    let shifts = [Shift::None, Shift::Back(FocusForm::ReceiverHull), Shift::Back(FocusForm::ViewHull)];
     let mut all = Vec::new();
     let named = [Warp::Uniform, Warp::Stable, Warp::Perspective, Warp::LightSpace, Warp::Trapezoidal];
     for warp in named
@@ -131,7 +135,11 @@ fn fits_of_several_views() {
             let settings = Settings::default().with_warp(warp);
             let count = allocations(|| {
                 let shared = SharedFocus::new(&views, &light, &scene).unwrap();
-                black_box((shared.fit(&settings), shared.sharing(&settings), shared.bodies(Form::Tight).count()));
+                black_box((
+                    shared.fit(&settings),
+                    shared.sharing(&settings),
+                    shared.bodies(FocusForm::ReceiverHull).count(),
+                ));
             });
             assert_eq!(count, 0, "{light:?} {warp:?}");
         }
@@ -143,7 +151,11 @@ fn bodies_and_their_faces() {
     for_each_case(|view, light, scene| {
         let count = allocations(|| {
             let focus = Focus::new(view, light, scene);
-            for body in [focus.visible(), focus.body(Form::Tight), focus.body(Form::Paper)] {
+            for body in [
+                focus.receiver_volume(),
+                focus.caster_volume(FocusForm::ReceiverHull),
+                focus.caster_volume(FocusForm::ViewHull),
+            ] {
                 black_box((body.volume(), body.bounds(), body.contains(view.eye())));
                 black_box((body.planes().count(), body.faces().count(), body.edges().count()));
             }
@@ -161,12 +173,12 @@ fn reports() {
         let Outcome::Map(map) = focus.fit(&Settings::default()) else { return };
         let count = allocations(|| {
             black_box(map.report(&focus));
-            black_box((map.aliasing_over(&focus), focus.limit(&Settings::default())));
+            black_box((map.aliasing_over(&focus), focus.aliasing_lower_bound(&Settings::default())));
             black_box(map.aliasing_over_receivers(&focus, &receivers));
-            black_box((map.matrix(), map.texture_matrix()));
+            black_box((map.caster_matrix(), map.receiver_matrix()));
             let bias = map.bias(DepthFormat::Float32, 1.0).unwrap();
-            black_box((map.texture_matrix_with(&bias.offset()), map.linear_depth()));
-            for &point in focus.visible().vertices() {
+            black_box((map.receiver_matrix_with(&bias.offset()), map.linear_depth()));
+            for &point in focus.receiver_volume().vertices() {
                 black_box((map.aliasing(point), map.depth_resolution(point, DepthFormat::Float32)));
             }
         });
@@ -183,11 +195,11 @@ fn culling() {
     let mut meets = vec![false; boxes.len()];
     for_each_case(|view, light, scene| {
         let count = allocations(|| {
-            let body = Focus::new(view, light, scene).body(Form::Tight);
+            let body = Focus::new(view, light, scene).caster_volume(FocusForm::ReceiverHull);
             let culler = body.culler();
             culler.boxes(&boxes, &mut meets);
             culler.spheres(&spheres, &mut meets);
-            black_box((body.meets_box(view.eye(), view.eye()), body.meets_sphere(view.eye(), 1.0)));
+            black_box((body.intersects_aabb(view.eye(), view.eye()), body.intersects_sphere(view.eye(), 1.0)));
         });
         assert_eq!(count, 0, "{view:?} {light:?}");
     });
@@ -197,13 +209,16 @@ fn culling() {
 fn slices() {
     let mut maps = 0;
     for_each_case(|view, light, scene| {
-        for cuts in [Cuts::Visible { count: 8, split: Split::Blended(0.5) }, Cuts::At(&[1.0, 5.0, 30.0])] {
+        for cuts in [
+            CascadeSplits::Visible { count: 8, split: SplitScheme::Practical(0.5) },
+            CascadeSplits::At(&[1.0, 5.0, 30.0]),
+        ] {
             let count = allocations(|| {
-                let slices = Slices::new(view, light, scene, cuts, 0.1).unwrap();
+                let slices = Cascades::new(view, light, scene, cuts, 0.1).unwrap();
                 let fitted = slices.fit(&Settings::default());
                 black_box((slices.index_at(3.0), slices.blend_at(3.0)));
                 black_box(fitted.report());
-                for layout in [Layout::Array, Layout::Atlas] {
+                for layout in [CascadeLayout::Array, CascadeLayout::Atlas] {
                     black_box(fitted.uniform(layout, |_| None).to_bytes());
                 }
                 maps += fitted.maps().count();

@@ -3,7 +3,11 @@
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use shadowfit::glam::DVec3;
-use shadowfit::{Aabb, ConvexScene, DAabb, Focus, Form, Light, Plane, Scene, View};
+use shadowfit::{
+    Aabb, Focus, FocusForm, Light, Scene, View,
+    focus::Plane,
+    input::{ConvexScene, DAabb},
+};
 
 fn boxes(rng: &mut StdRng, count: usize) -> Vec<DAabb> {
     (0..count)
@@ -40,8 +44,8 @@ fn casters_are_those_that_meet_the_body() {
         let (view, light) = (view(&mut rng), light.expect("sound"));
         let scene = Scene::new(&casters, &receivers).expect("sound");
         let focus = Focus::new(&view, &light, &scene);
-        let body = focus.body(Form::Tight);
-        let by_one = (0..60).filter(|&index| body.meets_box(casters[index].min, casters[index].max));
+        let body = focus.caster_volume(FocusForm::ReceiverHull);
+        let by_one = (0..60).filter(|&index| body.intersects_aabb(casters[index].min, casters[index].max));
         let found: Vec<usize> = focus.casters().collect();
         assert!(found.iter().copied().eq(by_one));
         drawn += found.len();
@@ -70,7 +74,7 @@ fn narrowed_views_hold_the_receivers() {
         let scene = Scene::new(&[], &receivers).expect("sound");
         let Some(inner) = view.narrowed_to(&scene) else {
             let light = Light::directional(DVec3::Y).expect("sound");
-            assert!(Focus::new(&view, &light, &scene).visible().is_empty());
+            assert!(Focus::new(&view, &light, &scene).receiver_volume().is_empty());
             continue;
         };
         narrowed += 1;
@@ -79,7 +83,7 @@ fn narrowed_views_hold_the_receivers() {
         for one in &receivers {
             let alone = Scene::from_box(one.min, one.max).expect("sound");
             let light = Light::directional(DVec3::Y).expect("sound");
-            for point in Focus::new(&view, &light, &alone).visible().vertices() {
+            for point in Focus::new(&view, &light, &alone).receiver_volume().vertices() {
                 (least, most) = (least.min(view.depth(*point)), most.max(view.depth(*point)));
             }
         }

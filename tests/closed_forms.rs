@@ -24,7 +24,8 @@
 use approx::assert_relative_eq;
 use shadowfit::glam::DVec3;
 use shadowfit::{
-    ClassKind, Focus, Light, Map, Origin, Outcome, Refusal, Scene, Settings, Shift, View, Warp, classify, fit,
+    Focus, Light, Origin, Outcome, Scene, Settings, ShadowMap, View, Warp, WarpFallback, fit,
+    warp::{ClassKind, Shift, classify},
 };
 
 const WARPS: [Warp; 4] = [Warp::Uniform, Warp::Perspective, Warp::LightSpace, Warp::Trapezoidal];
@@ -39,7 +40,7 @@ fn settings(warp: Warp) -> Settings {
     settings.with_warp(warp).with_shift(Shift::None)
 }
 
-fn map(outcome: Outcome) -> Map {
+fn map(outcome: Outcome) -> ShadowMap {
     *outcome.map().expect("a map")
 }
 
@@ -62,7 +63,7 @@ fn sizes(far: f64, settings: &Settings) -> (f64, f64) {
     assert!(padding.0 > 0.0 && padding.0 < 1e-4 && padding.1 > 0.0 && padding.1 < 1e-4, "{padding:?}");
     // The warp runs along y. What the window is larger than R by, it says, and footprints are larger by as much.
     let (across, along) = padding;
-    let body = focus.visible();
+    let body = focus.receiver_volume();
     body.vertices().iter().fold((0.0, 0.0), |(rs, rt): (f64, f64), &point| {
         let (texel, pixel) = (map.footprint(point).unwrap(), map.pixel_size(point));
         let step = texel.along_x.length();
@@ -213,10 +214,10 @@ fn the_light_space_map_has_the_published_distance() {
             let focus = Focus::new(&view, &sun, &scene);
             let settings = settings(Warp::LightSpace).with_origin(Origin::Eye);
             let map = map(focus.fit(&settings));
-            assert_eq!((map.refusal(), map.weakening()), (None, 0.0));
-            let visible = focus.visible();
+            assert_eq!((map.fallback(), map.weakening()), (None, 0.0));
+            let visible = focus.receiver_volume();
             let (along, sine) = view_across(&view, &sun);
-            let w = map.shadow_from_world().row(3);
+            let w = map.clip_from_world().row(3);
             assert!(w.truncate().normalize().distance(along) < CLOSE, "{w} is not along {along}");
 
             let (top, base) = range(visible.vertices().iter().map(|&point| along.dot(point)));
@@ -239,9 +240,10 @@ fn the_light_space_map_fades_to_the_uniform_one() {
             let sun = Light::directional(view.forward() * sign + view.right() * 10_f64.powi(-k)).unwrap();
             let focus = Focus::new(&view, &sun, &scene);
             let map = map(focus.fit(&settings(Warp::LightSpace).with_origin(Origin::Eye)));
-            assert_eq!((map.refusal(), map.weakening()), (None, 0.0));
+            assert_eq!((map.fallback(), map.weakening()), (None, 0.0));
             let (along, sine) = view_across(&view, &sun);
-            let (top, base) = range(focus.visible().vertices().iter().map(|&point| along.dot(point) * sine));
+            let (top, base) =
+                range(focus.receiver_volume().vertices().iter().map(|&point| along.dot(point) * sine));
             let depth = base - top;
             assert_relative_eq!(map.warp_ratio(), 1.0 + depth / (1.0 + (1.0 + depth).sqrt()), max_relative = CLOSE);
         }
@@ -262,12 +264,12 @@ fn lamps(view: &View) -> impl Iterator<Item = Light> {
 fn onto_plane(focus: &Focus<'_>, light: &Light) -> impl Fn(DVec3) -> DVec3 {
     let l = light.homogeneous();
     let axis = match light.position() {
-        Some(_) => map(focus.fit(&settings(Warp::Uniform))).shadow_from_world().row(3).truncate().normalize(),
+        Some(_) => map(focus.fit(&settings(Warp::Uniform))).clip_from_world().row(3).truncate().normalize(),
         None => -l.truncate(),
     };
     let origin = light.position().unwrap_or(focus.view().eye());
     let along = move |point: DVec3| axis.dot(point - origin);
-    let (near, far) = range(focus.visible().vertices().iter().map(|&point| along(point)));
+    let (near, far) = range(focus.receiver_volume().vertices().iter().map(|&point| along(point)));
     let middle = 0.5 * (near + far);
     move |point| match l.w > 0.0 {
         true => origin + (point - origin) * (middle / along(point)),
@@ -284,9 +286,9 @@ fn the_light_space_map_of_a_lamp_is_that_of_a_sun_on_the_plane_across() {
         for lamp in lamps(&view) {
             let focus = Focus::new(&view, &lamp, &scene);
             let map = map(focus.fit(&settings(Warp::LightSpace).with_origin(Origin::Eye)));
-            assert_eq!((map.refusal(), map.weakening()), (None, 0.0));
-            let (visible, onto_plane) = (focus.visible(), onto_plane(&focus, &lamp));
-            let w = map.shadow_from_world().row(3);
+            assert_eq!((map.fallback(), map.weakening()), (None, 0.0));
+            let (visible, onto_plane) = (focus.receiver_volume(), onto_plane(&focus, &lamp));
+            let w = map.clip_from_world().row(3);
             let on_plane: Vec<DVec3> = visible.vertices().iter().map(|&point| onto_plane(point)).collect();
             let (first, last) = range(on_plane.iter().map(|&point| view.depth(point)));
             let (least, _) = range(on_plane.iter().map(|&point| w.dot(point.extend(1.0))));
@@ -309,14 +311,14 @@ fn the_trapezoidal_map_keeps_four_fifths_for_its_focus() {
         for light in suns(&view).chain(lamps(&view)) {
             let focus = Focus::new(&view, &light, &scene);
             let map = map(focus.fit(&settings(Warp::Trapezoidal).with_origin(Origin::Eye)));
-            let (visible, onto_plane) = (focus.visible(), onto_plane(&focus, &light));
+            let (visible, onto_plane) = (focus.receiver_volume(), onto_plane(&focus, &light));
             let on_plane = || visible.vertices().iter().map(|&point| onto_plane(point));
             let focused = onto_plane(view.eye() + view.forward() * (1.0 + FOCUS * (far - 1.0)));
             let line = (focused - onto_plane(view.eye())).normalize();
             let (top, base) = range(on_plane().map(|point| line.dot(point)));
             let part = (line.dot(focused) - top) / (base - top);
-            assert_eq!((map.refusal(), map.weakening()), (None, 0.0), "{part}");
-            let w = map.shadow_from_world().row(3);
+            assert_eq!((map.fallback(), map.weakening()), (None, 0.0), "{part}");
+            let w = map.clip_from_world().row(3);
             let c = |point: DVec3| w.dot(point.extend(1.0));
             let (_, at_base) = range(on_plane().map(c));
             assert_relative_eq!(part * at_base / c(focused), 0.8, max_relative = CLOSE);
@@ -340,14 +342,14 @@ fn the_trapezoidal_map_fades_to_the_uniform_one() {
         let focus = Focus::new(&view, &sun, &scene);
         let map = map(focus.fit(&settings(Warp::Trapezoidal)));
         if part < 0.8 {
-            assert_eq!((map.refusal(), map.weakening()), (None, 0.0));
+            assert_eq!((map.fallback(), map.weakening()), (None, 0.0));
             // A sun from ahead throws it before all that is visible, and no nearer to the top is it taken to be than this.
             let least = FOCUS / 4.0;
             (warped, before) = if part > least { (warped + 1, before) } else { (warped, before + 1) };
             let part = part.max(least);
             assert_relative_eq!(map.warp_ratio(), 1.0 + (1.6 - 2.0 * part) / (0.4 * part), max_relative = CLOSE);
         } else {
-            assert_eq!((map.refusal(), map.warp_ratio()), (Some(Refusal::FocusLarge), 1.0));
+            assert_eq!((map.fallback(), map.warp_ratio()), (Some(WarpFallback::FocusLarge), 1.0));
             refused += 1;
         }
     }
@@ -365,23 +367,23 @@ fn a_refused_warp_is_the_uniform_map() {
     let beside = Light::spot((3.0, 1.0, 0.0), DVec3::X, 0.5, 0.1, 40.0).unwrap();
     let miner = Light::spot((0.0, 1.0, 20.0), DVec3::NEG_Z, 0.7, 0.1, 90.0).unwrap();
     let cases = [
-        (parallel, sun(0.3, 1.0, 0.2), Warp::LightSpace, Refusal::NoPerspective),
-        (parallel, sun(0.3, 1.0, 0.2), Warp::Trapezoidal, Refusal::NoPerspective),
-        (ahead, sun(0.0, 0.0, 1.0), Warp::Trapezoidal, Refusal::AlongView),
-        (ahead, sun(0.0, 0.0, -1.0), Warp::Trapezoidal, Refusal::AlongView),
-        (ahead, miner, Warp::Trapezoidal, Refusal::AlongView),
-        (ahead, beside, Warp::Trapezoidal, Refusal::FocusBehindLight),
+        (parallel, sun(0.3, 1.0, 0.2), Warp::LightSpace, WarpFallback::NoPerspective),
+        (parallel, sun(0.3, 1.0, 0.2), Warp::Trapezoidal, WarpFallback::NoPerspective),
+        (ahead, sun(0.0, 0.0, 1.0), Warp::Trapezoidal, WarpFallback::AlongView),
+        (ahead, sun(0.0, 0.0, -1.0), Warp::Trapezoidal, WarpFallback::AlongView),
+        (ahead, miner, Warp::Trapezoidal, WarpFallback::AlongView),
+        (ahead, beside, Warp::Trapezoidal, WarpFallback::FocusBehindLight),
     ];
     for (view, light, warp, reason) in cases {
         let focus = Focus::new(&view, &light, &scene);
         let refused = map(focus.fit(&settings(warp)));
         let uniform = map(focus.fit(&settings(Warp::Uniform)));
-        assert_eq!(refused.refusal(), Some(reason), "{light:?}, {warp:?}");
+        assert_eq!(refused.fallback(), Some(reason), "{light:?}, {warp:?}");
         assert_eq!(refused.report(&focus).refusal, Some(reason));
         assert!(!reason.to_string().is_empty());
-        assert_eq!(refused.shadow_from_world(), uniform.shadow_from_world());
+        assert_eq!(refused.clip_from_world(), uniform.clip_from_world());
         assert_eq!((refused.warp_ratio(), refused.weakening()), (1.0, 1.0));
-        assert_eq!(uniform.refusal(), None);
+        assert_eq!(uniform.fallback(), None);
     }
 }
 
@@ -405,7 +407,7 @@ fn along_the_view_the_warp_is_the_uniform_map() {
             for warp in [Warp::Perspective, Warp::LightSpace, Warp::Trapezoidal] {
                 let warped = map(focus.fit(&settings(warp)));
                 assert_relative_eq!(warped.warp_ratio(), 1.0, epsilon = CLOSE);
-                for &point in focus.visible().vertices() {
+                for &point in focus.receiver_volume().vertices() {
                     let (ours, theirs) = (warped.aliasing(point), uniform.aliasing(point));
                     assert_relative_eq!(ours.unwrap(), theirs.unwrap(), max_relative = CLOSE);
                 }
@@ -435,14 +437,14 @@ fn a_light_far_away_is_a_directional_light() {
         let position = sun.homogeneous().truncate() * DISTANCE;
         let lamp = Light::point(position, 1.0, f64::INFINITY).unwrap();
         for warp in WARPS {
-            for shift in [Shift::None, Shift::Back(shadowfit::Form::Tight)] {
+            for shift in [Shift::None, Shift::Back(shadowfit::FocusForm::ReceiverHull)] {
                 let settings = settings(warp).with_shift(shift);
                 let near = map(fit(&view, &lamp, &scene, &settings));
                 let infinite = map(fit(&view, &sun, &scene, &settings));
                 let focus = Focus::new(&view, &sun, &scene);
-                for &point in focus.visible().vertices() {
+                for &point in focus.receiver_volume().vertices() {
                     let [a, b] = [near, infinite].map(|map| {
-                        let clip = map.shadow_from_world() * point.extend(1.0);
+                        let clip = map.clip_from_world() * point.extend(1.0);
                         clip.truncate() / clip.w
                     });
                     let off = (a - b).abs().max_element();
@@ -470,7 +472,7 @@ fn negative_zero_is_zero() {
             }
             for warp in WARPS {
                 let [a, b] = [plus, minus].map(|light| map(fit(&view, &light, &scene, &settings(warp))));
-                assert_eq!(a.shadow_from_world(), b.shadow_from_world());
+                assert_eq!(a.clip_from_world(), b.clip_from_world());
                 assert_eq!(a.warp_ratio(), b.warp_ratio());
             }
         }

@@ -11,7 +11,7 @@ use arbitrary::{FORMS, following, run};
 use claims::rays::projected;
 use glam::DVec3;
 use proptest::prelude::*;
-use shadowfit::{Focus, Light, Map, Scene, Settings, View};
+use shadowfit::{Focus, Light, Scene, Settings, ShadowMap, View};
 
 /// The numbers that a set-up is made of, by what they are.
 #[rustfmt::skip]
@@ -79,7 +79,7 @@ impl SetUp {
         Some((view, light.ok()?, scene.ok()?))
     }
 
-    fn fit(&self, settings: &Settings) -> Option<Map> {
+    fn fit(&self, settings: &Settings) -> Option<ShadowMap> {
         let (view, light, scene) = self.parts()?;
         Focus::new(&view, &light, &scene).fit(settings).map().copied()
     }
@@ -102,10 +102,10 @@ impl SetUp {
 fn check(set_up: &SetUp, settings: &Settings, input: usize) {
     let Some(middle) = set_up.fit(settings) else { return };
     let (view, light, scene) = set_up.parts().expect("it was fitted");
-    let visible = Focus::new(&view, &light, &scene).visible();
+    let visible = Focus::new(&view, &light, &scene).receiver_volume();
     let reach = DVec3::splat(SIZE) + view.eye().abs() + light.position().unwrap_or(DVec3::ZERO).abs();
-    let place = |map: &Map, point: DVec3| {
-        let (place, slack, _) = projected(&map.shadow_from_world(), point, reach);
+    let place = |map: &ShadowMap, point: DVec3| {
+        let (place, slack, _) = projected(&map.clip_from_world(), point, reach);
         (place, slack.max_element())
     };
     // How far a change of one number by that part of it moves anything.

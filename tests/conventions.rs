@@ -3,8 +3,9 @@
 use approx::assert_relative_eq;
 use shadowfit::glam::{DMat4, DVec3, DVec4, Mat4, Vec3, dcamera};
 use shadowfit::{
-    ClassKind, ClipSpace, DepthRange, Focus, Form, Lens, Light, Map, Origin, Scene, Settings, TextureOrigin, View,
-    Warp, YAxis, classify, fit,
+    ClipSpace, Focus, FocusForm, Light, Origin, Scene, Settings, ShadowMap, View, Warp, fit,
+    input::{DepthRange, Lens, TextureOrigin, YAxis},
+    warp::{ClassKind, classify},
 };
 
 const DEPTHS: [DepthRange; 4] = [
@@ -150,8 +151,8 @@ fn one_camera_in_every_convention() {
 }
 
 /// The most that a body reaches in each of 26 directions: what it is, whatever its vertices are called.
-fn reaches(focus: &Focus<'_>, form: Option<Form>) -> Vec<f64> {
-    let body = form.map_or_else(|| focus.visible(), |form| focus.body(form));
+fn reaches(focus: &Focus<'_>, form: Option<FocusForm>) -> Vec<f64> {
+    let body = form.map_or_else(|| focus.receiver_volume(), |form| focus.caster_volume(form));
     let sides = [-1.0, 0.0, 1.0];
     sides
         .into_iter()
@@ -194,10 +195,12 @@ fn one_focus_body_in_every_convention() {
         }
         for light in &lights {
             let first = Focus::new(&views[0], light, &scene);
-            assert!(!first.visible().is_empty() && !first.body(Form::Tight).is_empty());
+            assert!(
+                !first.receiver_volume().is_empty() && !first.caster_volume(FocusForm::ReceiverHull).is_empty()
+            );
             for view in &views[1..] {
                 let focus = Focus::new(view, light, &scene);
-                for form in [None, Some(Form::Tight), Some(Form::Paper)] {
+                for form in [None, Some(FocusForm::ReceiverHull), Some(FocusForm::ViewHull)] {
                     for (ours, theirs) in reaches(&focus, form).into_iter().zip(reaches(&first, form)) {
                         // A vertex between two planes at an angle of 0.1 moves ten times as far as they do.
                         let tolerance = 10.0 * camera.rounding() * 100.0;
@@ -318,12 +321,12 @@ impl Setup {
         })
     }
 
-    fn map(&self, settings: &Settings) -> Map {
+    fn map(&self, settings: &Settings) -> ShadowMap {
         *fit(&self.view, &self.light, &self.scene, settings).map().expect("a map")
     }
 
     fn visible(&self) -> Vec<DVec3> {
-        Focus::new(&self.view, &self.light, &self.scene).visible().vertices().to_vec()
+        Focus::new(&self.view, &self.light, &self.scene).receiver_volume().vertices().to_vec()
     }
 }
 
@@ -344,11 +347,11 @@ fn matrices_of_every_convention() {
     for setup in Setup::around(DVec3::ZERO) {
         for warp in [Warp::Uniform, Warp::Perspective, Warp::LightSpace, Warp::Trapezoidal] {
             let map = setup.map(&settings(warp));
-            let wgpu = map.shadow_from_world_in(ClipSpace::WGPU);
+            let wgpu = map.clip_from_world_in(ClipSpace::WGPU);
             for clip in clip_spaces() {
-                let matrix = map.shadow_from_world_in(clip);
-                assert_eq!(setup.map(&settings(warp).with_clip(clip)).shadow_from_world(), matrix);
-                assert_eq!(setup.map(&settings(warp).with_clip(clip)).matrix(), matrix.as_mat4());
+                let matrix = map.clip_from_world_in(clip);
+                assert_eq!(setup.map(&settings(warp).with_clip(clip)).clip_from_world(), matrix);
+                assert_eq!(setup.map(&settings(warp).with_clip(clip)).caster_matrix(), matrix.as_mat4());
                 for point in setup.visible() {
                     let (base, ours) = (project(&wgpu, point), project(&matrix, point));
                     let y = if clip.y == YAxis::Up { base.y } else { -base.y };
@@ -367,7 +370,7 @@ fn matrices_of_every_convention() {
             }
             // Those with a name, entry by entry.
             let [vulkan, opengl, reversed] = [ClipSpace::VULKAN, ClipSpace::OPENGL, ClipSpace::WGPU.reversed()]
-                .map(|clip| map.shadow_from_world_in(clip));
+                .map(|clip| map.clip_from_world_in(clip));
             let of_rows = |rows: [DVec4; 4]| DMat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose();
             let [x, y, z, w] = [0, 1, 2, 3].map(|row| wgpu.row(row));
             assert_eq!(vulkan, of_rows([x, -y, z, w]));
@@ -384,7 +387,7 @@ fn the_middle_of_what_is_visible_is_the_middle_of_the_map() {
         for warp in [Warp::Uniform, Warp::Perspective, Warp::LightSpace, Warp::Trapezoidal] {
             let map = setup.map(&settings(warp).with_border(5).unwrap());
             let inner = 1.0 - 2.0 * 5.0 / f64::from(map.settings().map_size());
-            let matrix = map.shadow_from_world();
+            let matrix = map.clip_from_world();
             let seen: Vec<DVec3> = setup.visible().iter().map(|point| project(&matrix, *point)).collect();
             let min = seen.iter().fold(DVec3::INFINITY, |min, point| min.min(*point));
             let max = seen.iter().fold(DVec3::NEG_INFINITY, |max, point| max.max(*point));
@@ -403,7 +406,7 @@ fn near_and_far_planes_have_the_depths_of_their_convention() {
     for setup in Setup::around(DVec3::ZERO) {
         for clip in clip_spaces() {
             let map = setup.map(&settings(Warp::Uniform).with_clip(clip));
-            let matrix = map.shadow_from_world();
+            let matrix = map.clip_from_world();
             // A uniform map's w is the distance along its axis from a light at a position.
             let (axis, origin) = match setup.light.position() {
                 Some(position) => (matrix.row(3).truncate().normalize(), position),
@@ -433,8 +436,8 @@ fn texture_matrices_find_the_texel_that_was_drawn() {
     for setup in Setup::around(DVec3::ZERO) {
         for clip in clip_spaces() {
             let map = setup.map(&settings(Warp::Perspective).with_clip(clip));
-            let (clip_from_world, texture_from_world) = (map.shadow_from_world(), map.texture_from_world());
-            assert_eq!(map.texture_matrix(), texture_from_world.as_mat4());
+            let (clip_from_world, texture_from_world) = (map.clip_from_world(), map.texture_from_world());
+            assert_eq!(map.receiver_matrix(), texture_from_world.as_mat4());
             for point in setup.visible() {
                 let drawn = project(&clip_from_world, point);
                 // wgpu, Direct3D and Metal: the viewport turns y over. Vulkan and OpenGL: it does not.
@@ -460,11 +463,11 @@ fn matrices_about_the_eye_take_positions_relative_to_it() {
         let about_eye = settings(Warp::Perspective).with_origin(Origin::Eye);
         let map = setup.map(&about_eye);
         let translation = DMat4::from_translation(setup.view.eye());
-        assert_eq!(map.matrix(), (map.shadow_from_world() * translation).as_mat4());
-        assert_eq!(map.texture_matrix(), (map.texture_from_world() * translation).as_mat4());
+        assert_eq!(map.caster_matrix(), (map.clip_from_world() * translation).as_mat4());
+        assert_eq!(map.receiver_matrix(), (map.texture_from_world() * translation).as_mat4());
         for point in setup.visible() {
-            let world = project(&map.shadow_from_world(), point);
-            let relative = project(&(map.shadow_from_world() * translation), point - setup.view.eye());
+            let world = project(&map.clip_from_world(), point);
+            let relative = project(&(map.clip_from_world() * translation), point - setup.view.eye());
             assert!((world - relative).abs().max_element() < EXACT);
         }
     }
@@ -484,11 +487,11 @@ fn far_away_positions_relative_to_the_eye_keep_their_texel() {
         for warp in [Warp::Uniform, Warp::Perspective, Warp::LightSpace, Warp::Trapezoidal] {
             let off = |setup: &Setup| {
                 let map = setup.map(&settings(warp).with_origin(Origin::Eye));
-                let exact = map.shadow_from_world();
+                let exact = map.clip_from_world();
                 let texels = f64::from(map.settings().map_size()) / 2.0;
                 let points = setup.visible();
                 points.iter().fold(0.0, |most: f64, &point| {
-                    let found = project_in_f32(&map.matrix(), point - setup.view.eye());
+                    let found = project_in_f32(&map.caster_matrix(), point - setup.view.eye());
                     assert!(found.abs().max_element() <= 1.0 && found.z >= 0.0, "{found}");
                     let off = found.as_dvec3().truncate() - project(&exact, point).truncate();
                     most.max(off.abs().max_element() * texels)

@@ -7,7 +7,10 @@ mod arbitrary;
 use arbitrary::{Numbers, Together, case, run};
 use glam::DVec3;
 use proptest::prelude::*;
-use shadowfit::{DepthRange, Lens, View};
+use shadowfit::{
+    View,
+    input::{DepthRange, Lens},
+};
 
 #[test]
 fn what_the_projection_stores_is_the_depth_it_came_from() {

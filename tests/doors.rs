@@ -14,7 +14,10 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use shadowfit::glam::{DQuat, DVec3, EulerRot};
 use shadowfit::{
-    Body, ConvexScene, CubeFace, Focus, Form, Light, Outcome, Plane, Problem, Scene, Settings, View, Warp,
+    Focus, FocusForm, Light, Outcome, Scene, Settings, View, Warp,
+    focus::{ConvexBody, Plane},
+    input::{ConvexScene, InputErrorKind},
+    omni::CubeFace,
 };
 
 /// As many as a scene may keep, and more.
@@ -63,9 +66,9 @@ fn any_bits_give_results_or_an_error() {
 }
 
 /// A view that sees all of what is near the origin, and a sun.
-fn all_of(scene: &Scene<'_>) -> Body {
+fn all_of(scene: &Scene<'_>) -> ConvexBody {
     let view = View::orthographic(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1e3, 1.0, -1e3, 1e3).expect("sound");
-    Focus::new(&view, &Light::directional((0.3, 1.0, 0.2)).expect("sound"), scene).visible()
+    Focus::new(&view, &Light::directional((0.3, 1.0, 0.2)).expect("sound"), scene).receiver_volume()
 }
 
 fn turned(rng: &mut StdRng) -> DQuat {
@@ -156,7 +159,7 @@ fn there_is_room_for_the_view_beside_many_cuts() {
             (turned(&mut rng) * DVec3::Z * rng.random_range(0.0..15.0), turned(&mut rng) * DVec3::X);
         let view = View::perspective(eye, forward, (0.1, 0.9, 0.3), 1.0, 1.5, 0.1, 15.0).expect("sound");
         let light = Light::spot((0.0, 14.0, 0.0), (0.0, -1.0, 0.0), 1.0, 0.1, 60.0).expect("sound");
-        let body = Focus::new(&view, &light, &Scene::from_convex(&scene)).visible();
+        let body = Focus::new(&view, &light, &Scene::from_convex(&scene)).receiver_volume();
         assert!(body.vertices().iter().all(|vertex| view.planes().iter().all(|plane| plane.at(*vertex) >= -1e-9)));
     }
 }
@@ -189,15 +192,15 @@ fn spots_turn_about_their_axis() {
         let settings = Settings::default().with_warp(Warp::Stable);
         for light in [turned, square] {
             let Outcome::Map(map) = Focus::new(&view(), &light, &ground()).fit(&settings) else { panic!("no map") };
-            assert_eq!(map.refusal(), None);
-            let across = map.shadow_from_world().row(0).truncate().normalize();
+            assert_eq!(map.fallback(), None);
+            let across = map.clip_from_world().row(0).truncate().normalize();
             assert!(across.dot(DVec3::new(up.x, 0.0, up.z).normalize()).abs() < 1e-9, "{across} for {up}");
         }
     }
     let error = spot.with_up((0.0, 2.0, 0.0)).expect_err("along the axis");
-    assert_eq!((error.field, error.problem), ("up", Problem::Parallel));
+    assert_eq!((error.field, error.problem), ("up", InputErrorKind::Parallel));
     let error = Light::directional(DVec3::Y).expect("sound").with_up(DVec3::X).expect_err("no spot");
-    assert_eq!((error.field, error.problem), ("light", Problem::NotASpot));
+    assert_eq!((error.field, error.problem), ("light", InputErrorKind::NotASpot));
 }
 
 #[test]
@@ -213,9 +216,11 @@ fn pyramids_have_the_sides_they_say() {
     {
         assert_eq!(reaches(x, z), is_lit, "{x}, {z}");
     }
-    for (tangents, problem) in
-        [([0.0, 1.0], Problem::TooSmall), ([1.0, 257.0], Problem::TooLarge), ([f64::NAN, 1.0], Problem::NotFinite)]
-    {
+    for (tangents, problem) in [
+        ([0.0, 1.0], InputErrorKind::TooSmall),
+        ([1.0, 257.0], InputErrorKind::TooLarge),
+        ([f64::NAN, 1.0], InputErrorKind::NotFinite),
+    ] {
         let error = make(tangents).expect_err("no angle");
         assert_eq!((error.field, error.problem), ("tangents", problem));
     }
@@ -235,16 +240,20 @@ fn lights_within_planes() {
         let within = light.within(&[wall]).expect("a wall");
         assert_eq!(within.planes().len(), light.planes().len() + 1);
         let (free, bounded) = (Focus::new(&view(), &light, &ground()), Focus::new(&view(), &within, &ground()));
-        for body in [bounded.visible(), bounded.body(Form::Tight), bounded.body(Form::Paper)] {
+        for body in [
+            bounded.receiver_volume(),
+            bounded.caster_volume(FocusForm::ReceiverHull),
+            bounded.caster_volume(FocusForm::ViewHull),
+        ] {
             let (_, max) = body.bounds().expect("something is lit");
             assert!((max.x - 3.0).abs() < 1e-9);
         }
-        assert!(free.visible().bounds().expect("something is lit").1.x > 3.1);
+        assert!(free.receiver_volume().bounds().expect("something is lit").1.x > 3.1);
         assert_eq!(within.within(&[]).expect("none"), light);
         let error = light.within(&[wall; Light::MAX_WITHIN + 1]).expect_err("too many");
-        assert_eq!((error.field, error.problem), ("planes", Problem::TooMany));
+        assert_eq!((error.field, error.problem), ("planes", InputErrorKind::TooMany));
         let error = light.within(&[wall, Plane::new(DVec3::ZERO, 1.0)]).expect_err("no direction");
-        assert_eq!((error.index, error.problem), (Some(1), Problem::NoDirection));
+        assert_eq!((error.index, error.problem), (Some(1), InputErrorKind::NoDirection));
     }
     let point = Light::point((0.0, 9.0, 0.0), 0.1, 60.0).expect("sound").within(&[wall]).expect("a wall");
     let face = point.cube_face(CubeFace::NegativeY, 0.0).expect("all around");

@@ -2,12 +2,14 @@
 //! a NaN in a result.
 
 use shadowfit::glam::{DMat4, DVec3, DVec4, Vec3};
-use shadowfit::{
-    Aabb, ClipSpace, ConvexScene, CubeFace, InputError, Light, MAX_COORDINATE, MIN_DISTANCE, Outcome, Plane,
-    Problem, Scene, Settings, View, fit,
-};
 #[cfg(feature = "std")]
-use shadowfit::{Budget, Object, Objects};
+use shadowfit::plan::{Budget, Object, Objects};
+use shadowfit::{
+    Aabb, ClipSpace, InputError, Light, Outcome, Scene, Settings, View, fit,
+    focus::Plane,
+    input::{ConvexScene, InputErrorKind, MAX_COORDINATE, MIN_DISTANCE},
+    omni::CubeFace,
+};
 
 const NAN: f64 = f64::NAN;
 const INFINITY: f64 = f64::INFINITY;
@@ -17,13 +19,13 @@ const EYE: DVec3 = DVec3::new(1.0, 2.0, 3.0);
 
 /// Refused, for this field and for this reason.
 #[track_caller]
-fn refused<T: core::fmt::Debug>(result: Result<T, InputError>, field: &str, problem: Problem) {
+fn refused<T: core::fmt::Debug>(result: Result<T, InputError>, field: &str, problem: InputErrorKind) {
     let error = result.expect_err("accepted");
     assert_eq!((error.field, error.problem), (field, problem));
     assert!(error.to_string().starts_with(field), "{error}");
 }
 
-fn found(error: Option<InputError>) -> Option<(&'static str, Problem)> {
+fn found(error: Option<InputError>) -> Option<(&'static str, InputErrorKind)> {
     error.map(|error| (error.field, error.problem))
 }
 
@@ -40,8 +42,10 @@ fn with(vector: DVec3, axis: usize, value: f64) -> DVec3 {
 #[test]
 fn points_of_views_and_lights() {
     for axis in 0..3 {
-        for (value, problem) in
-            NOT_FINITE.map(|value| (value, Problem::NotFinite)).into_iter().chain([(-1e13, Problem::TooLarge)])
+        for (value, problem) in NOT_FINITE
+            .map(|value| (value, InputErrorKind::NotFinite))
+            .into_iter()
+            .chain([(-1e13, InputErrorKind::TooLarge)])
         {
             let point = with(EYE, axis, value);
             refused(View::perspective(point, DVec3::X, DVec3::Y, 1.0, 1.0, 0.1, 9.0), "eye", problem);
@@ -70,11 +74,11 @@ fn directions() {
     for (field, make) in doors {
         for axis in 0..3 {
             for value in NOT_FINITE {
-                assert_eq!(found(make(with(DVec3::Z, axis, value))), Some((field, Problem::NotFinite)));
+                assert_eq!(found(make(with(DVec3::Z, axis, value))), Some((field, InputErrorKind::NotFinite)));
             }
         }
         for zero in [DVec3::ZERO, -DVec3::ZERO] {
-            assert_eq!(found(make(zero)), Some((field, Problem::NoDirection)));
+            assert_eq!(found(make(zero)), Some((field, InputErrorKind::NoDirection)));
         }
         // A direction's length does not matter, however small or large.
         for length in [DENORMAL, 1e-200, 1e-20, 1e20, 1e200, f64::MAX] {
@@ -86,8 +90,8 @@ fn directions() {
 #[test]
 fn directions_that_must_span_a_plane() {
     for (forward, up) in [(DVec3::Y, DVec3::Y), (DVec3::Y, DVec3::NEG_Y * 3.0), (EYE, EYE * -1e-9)] {
-        refused(View::perspective(EYE, forward, up, 1.0, 1.0, 0.1, 9.0), "up", Problem::Parallel);
-        refused(View::orthographic(EYE, forward, up, 1.0, 1.0, 0.1, 9.0), "up", Problem::Parallel);
+        refused(View::perspective(EYE, forward, up, 1.0, 1.0, 0.1, 9.0), "up", InputErrorKind::Parallel);
+        refused(View::orthographic(EYE, forward, up, 1.0, 1.0, 0.1, 9.0), "up", InputErrorKind::Parallel);
     }
 }
 
@@ -96,14 +100,18 @@ fn angles() {
     use core::f64::consts::{FRAC_PI_2, PI};
     for angle in [NAN, INFINITY, -INFINITY, 0.0, -0.0, -1.0, PI, 4.0] {
         let view = View::perspective(EYE, DVec3::X, DVec3::Y, angle, 1.0, 0.1, 9.0);
-        refused(view, "fov_y", Problem::AngleOutOfRange);
+        refused(view, "fov_y", InputErrorKind::AngleOutOfRange);
     }
     for angle in [NAN, INFINITY, -INFINITY, 0.0, -0.0, -1.0, DENORMAL, FRAC_PI_2, 2.0] {
-        refused(Light::spot(EYE, DVec3::X, angle, 0.1, 9.0), "half_angle", Problem::AngleOutOfRange);
+        refused(Light::spot(EYE, DVec3::X, angle, 0.1, 9.0), "half_angle", InputErrorKind::AngleOutOfRange);
     }
     // An angle in its range may have a tangent that is not.
-    refused(View::perspective(EYE, DVec3::X, DVec3::Y, DENORMAL, 1.0, 0.1, 9.0), "fov_y", Problem::TooSmall);
-    refused(View::perspective(EYE, DVec3::X, DVec3::Y, PI.next_down(), 1.0, 0.1, 9.0), "fov_y", Problem::TooLarge);
+    refused(View::perspective(EYE, DVec3::X, DVec3::Y, DENORMAL, 1.0, 0.1, 9.0), "fov_y", InputErrorKind::TooSmall);
+    refused(
+        View::perspective(EYE, DVec3::X, DVec3::Y, PI.next_down(), 1.0, 0.1, 9.0),
+        "fov_y",
+        InputErrorKind::TooLarge,
+    );
 }
 
 #[test]
@@ -111,16 +119,16 @@ fn cube_faces() {
     let face = CubeFace::NegativeY;
     let lamp = Light::point(EYE, 0.1, 9.0).unwrap();
     for bad in [NAN, INFINITY, -INFINITY] {
-        refused(lamp.cube_face(face, bad), "overlap", Problem::NotFinite);
+        refused(lamp.cube_face(face, bad), "overlap", InputErrorKind::NotFinite);
     }
-    refused(lamp.cube_face(face, -1e-9), "overlap", Problem::TooSmall);
-    refused(lamp.cube_face(face, CubeFace::MAX_OVERLAP.next_up()), "overlap", Problem::TooLarge);
+    refused(lamp.cube_face(face, -1e-9), "overlap", InputErrorKind::TooSmall);
+    refused(lamp.cube_face(face, CubeFace::MAX_OVERLAP.next_up()), "overlap", InputErrorKind::TooLarge);
     for light in [
         Light::directional(DVec3::X).unwrap(),
         Light::spot(EYE, DVec3::X, 1.0, 0.1, 9.0).unwrap(),
         lamp.cube_face(face, CubeFace::MAX_OVERLAP).unwrap(),
     ] {
-        refused(light.cube_face(face, 0.0), "light", Problem::NotAllAround);
+        refused(light.cube_face(face, 0.0), "light", InputErrorKind::NotAllAround);
     }
 }
 
@@ -128,16 +136,16 @@ fn cube_faces() {
 #[test]
 fn distances() {
     let bad = [
-        (NAN, Problem::NotFinite),
-        (INFINITY, Problem::NotFinite),
-        (-INFINITY, Problem::NotFinite),
-        (0.0, Problem::TooSmall),
-        (-0.0, Problem::TooSmall),
-        (-1.0, Problem::TooSmall),
-        (DENORMAL, Problem::TooSmall),
-        (MIN_DISTANCE.next_down(), Problem::TooSmall),
-        (MAX_COORDINATE.next_up(), Problem::TooLarge),
-        (f64::MAX, Problem::TooLarge),
+        (NAN, InputErrorKind::NotFinite),
+        (INFINITY, InputErrorKind::NotFinite),
+        (-INFINITY, InputErrorKind::NotFinite),
+        (0.0, InputErrorKind::TooSmall),
+        (-0.0, InputErrorKind::TooSmall),
+        (-1.0, InputErrorKind::TooSmall),
+        (DENORMAL, InputErrorKind::TooSmall),
+        (MIN_DISTANCE.next_down(), InputErrorKind::TooSmall),
+        (MAX_COORDINATE.next_up(), InputErrorKind::TooLarge),
+        (f64::MAX, InputErrorKind::TooLarge),
     ];
     type Make = fn(f64) -> Option<InputError>;
     let doors: [(&str, Make); 7] = [
@@ -170,7 +178,7 @@ fn distances() {
             assert_eq!(found(make(value)), expected, "{field} = {value}");
         }
         for value in [0.1, 0.05] {
-            assert_eq!(found(make(value)), Some((field, Problem::OutOfOrder)), "{field} = {value}");
+            assert_eq!(found(make(value)), Some((field, InputErrorKind::OutOfOrder)), "{field} = {value}");
         }
     }
 }
@@ -179,27 +187,27 @@ fn distances() {
 fn depths_of_orthographic_views() {
     let view = |near, far| View::orthographic(EYE, DVec3::X, DVec3::Y, 1.0, 1.0, near, far);
     for value in NOT_FINITE {
-        refused(view(value, 9.0), "near", Problem::NotFinite);
-        refused(view(0.1, value), "far", Problem::NotFinite);
+        refused(view(value, 9.0), "near", InputErrorKind::NotFinite);
+        refused(view(0.1, value), "far", InputErrorKind::NotFinite);
     }
-    refused(view(-1e13, 9.0), "near", Problem::TooLarge);
-    refused(view(0.1, 1e13), "far", Problem::TooLarge);
-    refused(view(2.0, 2.0), "far", Problem::OutOfOrder);
-    refused(view(2.0, 1.0), "far", Problem::OutOfOrder);
+    refused(view(-1e13, 9.0), "near", InputErrorKind::TooLarge);
+    refused(view(0.1, 1e13), "far", InputErrorKind::TooLarge);
+    refused(view(2.0, 2.0), "far", InputErrorKind::OutOfOrder);
+    refused(view(2.0, 1.0), "far", InputErrorKind::OutOfOrder);
     assert!(view(-5.0, -0.0).is_ok());
 }
 
 #[test]
 fn narrowed_views() {
     let view = View::perspective(EYE, DVec3::X, DVec3::Y, 1.0, 1.0, 1.0, 9.0).unwrap();
-    refused(view.narrowed(NAN, 9.0), "near", Problem::NotFinite);
-    refused(view.narrowed(1.0, NAN), "far", Problem::NotFinite);
+    refused(view.narrowed(NAN, 9.0), "near", InputErrorKind::NotFinite);
+    refused(view.narrowed(1.0, NAN), "far", InputErrorKind::NotFinite);
     for (near, far) in [(3.0, 3.0), (3.0, 2.0), (INFINITY, 9.0), (INFINITY, INFINITY)] {
-        refused(view.narrowed(near, far), "far", Problem::OutOfOrder);
+        refused(view.narrowed(near, far), "far", InputErrorKind::OutOfOrder);
     }
     // A range that misses the view, to the step.
-    refused(view.narrowed(9.0, INFINITY), "near", Problem::OutsideView);
-    refused(view.narrowed(-INFINITY, 1.0), "far", Problem::OutsideView);
+    refused(view.narrowed(9.0, INFINITY), "near", InputErrorKind::OutsideView);
+    refused(view.narrowed(-INFINITY, 1.0), "far", InputErrorKind::OutsideView);
     assert!(view.narrowed(9.0_f64.next_down(), INFINITY).is_ok() && view.narrowed(0.0, 1.0_f64.next_up()).is_ok());
     for (near, far) in [(1.0, 9.0), (0.5, 9.5), (-INFINITY, INFINITY)] {
         assert_eq!(view.narrowed(near, far).unwrap(), view);
@@ -229,9 +237,9 @@ fn every_entry_of_a_matrix_must_be_finite() {
                 matrix
             };
             let view = View::from_matrices(put(eye_from_world), clip_from_eye, ClipSpace::WGPU);
-            refused(view, "eye_from_world", Problem::NotFinite);
+            refused(view, "eye_from_world", InputErrorKind::NotFinite);
             let view = View::from_matrices(eye_from_world, put(clip_from_eye), ClipSpace::WGPU);
-            refused(view, "clip_from_eye", Problem::NotFinite);
+            refused(view, "clip_from_eye", InputErrorKind::NotFinite);
         }
     }
 }
@@ -242,21 +250,25 @@ fn matrices_that_are_no_cameras() {
     let flat = DMat4::from_scale(DVec3::new(1.0, 1.0, 0.0));
     for matrix in [DMat4::ZERO, flat * eye_from_world] {
         let view = View::from_matrices(matrix, clip_from_eye, ClipSpace::WGPU);
-        refused(view, "eye_from_world", Problem::Singular);
+        refused(view, "eye_from_world", InputErrorKind::Singular);
     }
     let mut one_row = clip_from_eye.transpose();
     one_row.y_axis = one_row.x_axis;
     for matrix in [DMat4::ZERO, one_row.transpose()] {
-        refused(View::from_matrices(eye_from_world, matrix, ClipSpace::WGPU), "clip_from_eye", Problem::Singular);
+        refused(
+            View::from_matrices(eye_from_world, matrix, ClipSpace::WGPU),
+            "clip_from_eye",
+            InputErrorKind::Singular,
+        );
         let combined = matrix * eye_from_world;
-        refused(View::from_clip_from_world(combined, ClipSpace::WGPU), "clip_from_world", Problem::Singular);
+        refused(View::from_clip_from_world(combined, ClipSpace::WGPU), "clip_from_world", InputErrorKind::Singular);
     }
     // Parallel lines of sight, and w negative all over.
     let view = View::from_clip_from_world(-DMat4::IDENTITY, ClipSpace::WGPU);
-    refused(view, "clip_from_world", Problem::NotAProjection);
+    refused(view, "clip_from_world", InputErrorKind::NotAProjection);
     for value in NOT_FINITE {
         let view = View::from_clip_from_world(clip_from_eye * value, ClipSpace::WGPU);
-        refused(view, "clip_from_world", Problem::NotFinite);
+        refused(view, "clip_from_world", InputErrorKind::NotFinite);
     }
 }
 
@@ -271,15 +283,15 @@ fn matrices_that_look_transposed() {
     for matrix in [clip_from_eye, off_axis, deep] {
         let combined = (matrix * eye_from_world).transpose();
         let view = View::from_clip_from_world(combined, ClipSpace::WGPU);
-        refused(view, "clip_from_world", Problem::LooksTransposed);
+        refused(view, "clip_from_world", InputErrorKind::LooksTransposed);
     }
     for clip in [ClipSpace::WGPU, ClipSpace::WGPU.reversed(), ClipSpace::OPENGL] {
         for matrix in [clip_from_eye, reversed, off_axis, deep] {
             let view = View::from_matrices(eye_from_world, matrix.transpose(), clip);
-            refused(view, "clip_from_eye", Problem::LooksTransposed);
+            refused(view, "clip_from_eye", InputErrorKind::LooksTransposed);
         }
         let view = View::from_matrices(eye_from_world.transpose(), clip_from_eye, clip);
-        refused(view, "eye_from_world", Problem::LooksTransposed);
+        refused(view, "eye_from_world", InputErrorKind::LooksTransposed);
     }
 }
 
@@ -306,15 +318,15 @@ fn singular_projections() {
 fn projections_read_in_the_wrong_convention() {
     let (eye_from_world, clip_from_eye) = matrices();
     let clip = ClipSpace::WGPU.reversed();
-    refused(View::from_matrices(eye_from_world, clip_from_eye, clip), "clip", Problem::LooksReversed);
+    refused(View::from_matrices(eye_from_world, clip_from_eye, clip), "clip", InputErrorKind::LooksReversed);
     let combined = clip_from_eye * eye_from_world;
-    refused(View::from_clip_from_world(combined, clip), "clip", Problem::LooksReversed);
+    refused(View::from_clip_from_world(combined, clip), "clip", InputErrorKind::LooksReversed);
     // An infinite far plane, reversed, has its near plane at infinity when read as forward.
     let mut infinite = clip_from_eye;
     (infinite.z_axis.z, infinite.w_axis.z) = (0.0, 0.5);
     assert!(View::from_matrices(eye_from_world, infinite, clip).is_ok());
     let wrong = View::from_matrices(eye_from_world, infinite, ClipSpace::WGPU);
-    refused(wrong, "clip", Problem::LooksReversed);
+    refused(wrong, "clip", InputErrorKind::LooksReversed);
 }
 
 #[test]
@@ -322,14 +334,14 @@ fn boxes_of_scenes() {
     let (min, max) = (DVec3::splat(-1.0), DVec3::splat(1.0));
     for axis in 0..3 {
         for value in NOT_FINITE {
-            refused(Scene::from_box(with(min, axis, value), max), "min", Problem::NotFinite);
-            refused(Scene::from_box(min, with(max, axis, value)), "max", Problem::NotFinite);
-            refused(ConvexScene::new(with(min, axis, value), max, &[]), "min", Problem::NotFinite);
+            refused(Scene::from_box(with(min, axis, value), max), "min", InputErrorKind::NotFinite);
+            refused(Scene::from_box(min, with(max, axis, value)), "max", InputErrorKind::NotFinite);
+            refused(ConvexScene::new(with(min, axis, value), max, &[]), "min", InputErrorKind::NotFinite);
         }
-        refused(Scene::from_box(with(min, axis, -1e13), max), "min", Problem::TooLarge);
-        refused(Scene::from_box(min, with(max, axis, 1e13)), "max", Problem::TooLarge);
-        refused(Scene::from_box(with(min, axis, 1.5), max), "max", Problem::OutOfOrder);
-        refused(ConvexScene::new(with(min, axis, 1.5), max, &[]), "max", Problem::OutOfOrder);
+        refused(Scene::from_box(with(min, axis, -1e13), max), "min", InputErrorKind::TooLarge);
+        refused(Scene::from_box(min, with(max, axis, 1e13)), "max", InputErrorKind::TooLarge);
+        refused(Scene::from_box(with(min, axis, 1.5), max), "max", InputErrorKind::OutOfOrder);
+        refused(ConvexScene::new(with(min, axis, 1.5), max, &[]), "max", InputErrorKind::OutOfOrder);
         assert!(Scene::from_box(with(min, axis, 1.0), max).is_ok(), "flat");
     }
     assert!(Scene::from_box(max, max).is_ok(), "a point");
@@ -339,11 +351,11 @@ fn boxes_of_scenes() {
 fn lists_of_scenes() {
     let fine = [Aabb::new(Vec3::splat(-1.0), Vec3::splat(1.0))];
     for (value, problem) in [
-        (f32::NAN, Problem::NotFinite),
-        (f32::INFINITY, Problem::NotFinite),
-        (f32::NEG_INFINITY, Problem::NotFinite),
-        (1e13, Problem::TooLarge),
-        (-2.0, Problem::OutOfOrder),
+        (f32::NAN, InputErrorKind::NotFinite),
+        (f32::INFINITY, InputErrorKind::NotFinite),
+        (f32::NEG_INFINITY, InputErrorKind::NotFinite),
+        (1e13, InputErrorKind::TooLarge),
+        (-2.0, InputErrorKind::OutOfOrder),
     ] {
         let bad = [fine[0], Aabb::new(fine[0].min, Vec3::new(1.0, value, 1.0)), fine[0]];
         for (scene, field) in [(Scene::new(&bad, &fine), "casters"), (Scene::new(&fine, &bad), "receivers")] {
@@ -357,17 +369,21 @@ fn lists_of_scenes() {
 fn planes_of_convex_scenes() {
     let scene = |planes: &[Plane]| ConvexScene::new(DVec3::splat(-1.0), DVec3::splat(1.0), planes);
     for value in NOT_FINITE {
-        refused(scene(&[Plane::new(DVec3::X, value)]), "planes", Problem::NotFinite);
+        refused(scene(&[Plane::new(DVec3::X, value)]), "planes", InputErrorKind::NotFinite);
         for axis in 0..3 {
-            refused(scene(&[Plane::new(with(DVec3::X, axis, value), 0.0)]), "planes", Problem::NotFinite);
+            refused(scene(&[Plane::new(with(DVec3::X, axis, value), 0.0)]), "planes", InputErrorKind::NotFinite);
         }
     }
-    refused(scene(&[Plane::new(DVec3::ZERO, 1.0)]), "planes", Problem::NoDirection);
+    refused(scene(&[Plane::new(DVec3::ZERO, 1.0)]), "planes", InputErrorKind::NoDirection);
     assert_eq!(scene(&[Plane::new(DVec3::X, 0.0), Plane::ONE]).unwrap_err().index, Some(1));
     for value in NOT_FINITE {
-        refused(ConvexScene::around([DVec3::ZERO, with(DVec3::ONE, 1, value)]), "points", Problem::NotFinite);
+        refused(
+            ConvexScene::around([DVec3::ZERO, with(DVec3::ONE, 1, value)]),
+            "points",
+            InputErrorKind::NotFinite,
+        );
     }
-    refused(ConvexScene::around([DVec3::splat(1e13)]), "points", Problem::TooLarge);
+    refused(ConvexScene::around([DVec3::splat(1e13)]), "points", InputErrorKind::TooLarge);
 }
 
 /// Planes may be of any length that a direction may be of.
@@ -383,7 +399,7 @@ fn planes_of_any_length() {
                 let Outcome::Map(map) = fit(&view, &light, &Scene::from_convex(&scene), &settings) else {
                     panic!("no map");
                 };
-                assert!(map.matrix().is_finite());
+                assert!(map.caster_matrix().is_finite());
             }
             Err(error) => assert_eq!(error.field, "planes"),
         }
@@ -393,22 +409,22 @@ fn planes_of_any_length() {
 #[test]
 fn sizes_of_settings() {
     for (size, problem) in [
-        (0, Problem::TooSmall),
-        (3, Problem::TooSmall),
-        (Settings::MAX_SIZE + 1, Problem::TooLarge),
-        (u32::MAX, Problem::TooLarge),
+        (0, InputErrorKind::TooSmall),
+        (3, InputErrorKind::TooSmall),
+        (Settings::MAX_SIZE + 1, InputErrorKind::TooLarge),
+        (u32::MAX, InputErrorKind::TooLarge),
     ] {
         refused(Settings::new(size, 1080), "map_size", problem);
         refused(Settings::new(2048, size), "image_height", problem);
     }
     let settings = Settings::new(16, 4).unwrap();
-    refused(settings.with_border(5), "border", Problem::TooLarge);
-    refused(settings.with_border(u32::MAX), "border", Problem::TooLarge);
+    refused(settings.with_border(5), "border", InputErrorKind::TooLarge);
+    refused(settings.with_border(u32::MAX), "border", InputErrorKind::TooLarge);
     assert_eq!(settings.with_border(4).unwrap().border(), 4);
-    refused(settings.with_map_size(3), "map_size", Problem::TooSmall);
-    refused(settings.with_border(4).unwrap().with_map_size(15), "border", Problem::TooLarge);
+    refused(settings.with_map_size(3), "map_size", InputErrorKind::TooSmall);
+    refused(settings.with_border(4).unwrap().with_map_size(15), "border", InputErrorKind::TooLarge);
     assert_eq!(settings.with_map_size(64).unwrap().map_size(), 64);
-    for (size, problem) in [(3, Problem::TooSmall), (Settings::MAX_SIZE + 1, Problem::TooLarge)] {
+    for (size, problem) in [(3, InputErrorKind::TooSmall), (Settings::MAX_SIZE + 1, InputErrorKind::TooLarge)] {
         refused(settings.with_map_sides(size, 16), "map_width", problem);
         refused(settings.with_map_sides(16, size), "map_height", problem);
     }
@@ -422,11 +438,11 @@ fn sides_of_settings() {
     for (width, height) in [(16, 64), (64, 16)] {
         let settings = settings.with_map_sides(width, height).unwrap();
         assert_eq!((settings.map_sides(), settings.map_size(), settings.border()), ((width, height), 16, 4));
-        refused(settings.with_border(5), "border", Problem::TooLarge);
+        refused(settings.with_border(5), "border", InputErrorKind::TooLarge);
         assert_eq!(settings.with_map_size(32).unwrap().map_sides(), (32, 32));
     }
-    refused(settings.with_map_sides(15, 64), "border", Problem::TooLarge);
-    refused(settings.with_map_sides(64, 15), "border", Problem::TooLarge);
+    refused(settings.with_map_sides(15, 64), "border", InputErrorKind::TooLarge);
+    refused(settings.with_map_sides(64, 15), "border", InputErrorKind::TooLarge);
     assert_eq!(settings.with_map_sides(32, 32).unwrap(), settings.with_map_size(32).unwrap());
 }
 
@@ -435,25 +451,25 @@ fn sides_of_settings() {
 fn plans() {
     let budget = Budget::new(Settings::default());
     for value in NOT_FINITE {
-        refused(budget.with_aliasing(value), "aliasing", Problem::NotFinite);
+        refused(budget.with_aliasing(value), "aliasing", InputErrorKind::NotFinite);
     }
     for value in [0.0, -1.0, DENORMAL] {
-        refused(budget.with_aliasing(value), "aliasing", Problem::TooSmall);
+        refused(budget.with_aliasing(value), "aliasing", InputErrorKind::TooSmall);
     }
     assert_eq!(budget.with_aliasing(0.5).unwrap().aliasing(), 0.5);
 
     let sound = Object::new(Aabb::new(Vec3::ZERO, Vec3::ONE));
     assert!(Objects::new(&[]).is_ok() && Objects::new(&[sound]).is_ok());
     let bounds = [
-        (Aabb::new(Vec3::NAN, Vec3::ONE), Problem::NotFinite),
-        (Aabb::new(Vec3::ZERO, Vec3::INFINITY), Problem::NotFinite),
-        (Aabb::new(Vec3::ZERO, Vec3::splat(1e13)), Problem::TooLarge),
-        (Aabb::new(Vec3::ONE, Vec3::ZERO), Problem::OutOfOrder),
+        (Aabb::new(Vec3::NAN, Vec3::ONE), InputErrorKind::NotFinite),
+        (Aabb::new(Vec3::ZERO, Vec3::INFINITY), InputErrorKind::NotFinite),
+        (Aabb::new(Vec3::ZERO, Vec3::splat(1e13)), InputErrorKind::TooLarge),
+        (Aabb::new(Vec3::ONE, Vec3::ZERO), InputErrorKind::OutOfOrder),
     ];
     for (bounds, problem) in bounds {
         refused(Objects::new(&[sound, Object { bounds, ..sound }]), "objects", problem);
     }
-    for (longest_edge, problem) in [(f32::NAN, Problem::NotFinite), (-1.0, Problem::TooSmall)] {
+    for (longest_edge, problem) in [(f32::NAN, InputErrorKind::NotFinite), (-1.0, InputErrorKind::TooSmall)] {
         refused(Objects::new(&[Object { longest_edge, ..sound }]), "objects", problem);
     }
 }

@@ -5,7 +5,9 @@ mod arbitrary;
 use arbitrary::{Numbers, points_of, run};
 use glam::DVec3;
 use proptest::prelude::*;
-use shadowfit::{CubeFace, Empty, Focus, Form, Light, Map, Outcome, Scene, Settings, Shift, View, Warp};
+use shadowfit::{
+    Empty, Focus, FocusForm, Light, Outcome, Scene, Settings, ShadowMap, View, Warp, omni::CubeFace, warp::Shift,
+};
 
 /// A direction as long as it may be, evenly over a cube.
 fn arm() -> impl Strategy<Value = DVec3> {
@@ -114,7 +116,12 @@ fn scene() -> Scene<'static> {
 }
 
 fn settings(warp: Warp) -> Settings {
-    Settings::new(512, 600).unwrap().with_border(1).unwrap().with_warp(warp).with_shift(Shift::Back(Form::Paper))
+    Settings::new(512, 600)
+        .unwrap()
+        .with_border(1)
+        .unwrap()
+        .with_warp(warp)
+        .with_shift(Shift::Back(FocusForm::ViewHull))
 }
 
 /// The map of each face.
@@ -123,8 +130,8 @@ fn fit_faces(view: &View, light: &Light, overlap: f64, settings: &Settings) -> [
 }
 
 /// How far outside of the clip volume a point is, in clip units; not above 0 inside.
-fn outside(map: &Map, point: DVec3) -> f64 {
-    let clip = map.shadow_from_world() * point.extend(1.0);
+fn outside(map: &ShadowMap, point: DVec3) -> f64 {
+    let clip = map.clip_from_world() * point.extend(1.0);
     let [x, y, z] = (clip.truncate() / clip.w).to_array();
     if clip.w > 0.0 { (x.abs() - 1.0).max(y.abs() - 1.0).max(-z).max(z - 1.0) } else { f64::INFINITY }
 }
@@ -136,7 +143,7 @@ fn six_maps_serve_a_lamp_in_a_room() {
         let warp = if warped { Warp::Perspective } else { Warp::Uniform };
         let outcomes = fit_faces(&view, &lamp, overlap, &settings(warp));
         // What the whole lamp lights of what is visible: each point is in the map that its direction names.
-        for point in points_of(&Focus::new(&view, &lamp, &scene()).visible(), seed) {
+        for point in points_of(&Focus::new(&view, &lamp, &scene()).receiver_volume(), seed) {
             let from_lamp = point - room.lamp;
             // Corners of L's box lie beyond the range, and so do they for a face along another axis.
             if from_lamp.length() < LAMP_NEAR || from_lamp.length() > room.range {
@@ -153,10 +160,10 @@ fn six_maps_serve_a_lamp_in_a_room() {
         }
         for (face, outcome) in CubeFace::ALL.into_iter().zip(&outcomes) {
             let focus_light = lamp.cube_face(face, overlap).unwrap();
-            let visible = Focus::new(&view, &focus_light, &scene()).visible();
+            let visible = Focus::new(&view, &focus_light, &scene()).receiver_volume();
             assert!(!matches!(outcome, Outcome::Surrounded(_)), "{face:?}");
             // A face has a map exactly if something in it is visible.
-            assert_eq!(visible.is_empty(), *outcome == Outcome::Empty(Empty::NothingVisible), "{face:?}");
+            assert_eq!(visible.is_empty(), *outcome == Outcome::Empty(Empty::NoReceivers), "{face:?}");
         }
     });
 }
@@ -181,7 +188,7 @@ fn faces_that_see_nothing_of_the_view_need_no_map() {
     for (face, outcome) in CubeFace::ALL.into_iter().zip(&outcomes) {
         match face {
             CubeFace::NegativeZ => assert!(outcome.map().is_some(), "{face:?}: {outcome:?}"),
-            _ => assert_eq!(*outcome, Outcome::Empty(Empty::NothingVisible), "{face:?}"),
+            _ => assert_eq!(*outcome, Outcome::Empty(Empty::NoReceivers), "{face:?}"),
         }
     }
 }
@@ -199,10 +206,10 @@ fn the_overlap_covers_what_a_filter_reads() {
         let mut numbers = Numbers(seed);
         for (face, outcome) in CubeFace::ALL.into_iter().zip(fit_faces(&view, &lamp, overlap, &settings)) {
             let Some(map) = outcome.map() else { continue };
-            let matrix = map.shadow_from_world();
+            let matrix = map.clip_from_world();
             let unproject = matrix.inverse();
             let light = lamp.cube_face(face, 0.0).unwrap();
-            for point in points_of(&Focus::new(&view, &light, &scene()).visible(), seed) {
+            for point in points_of(&Focus::new(&view, &light, &scene()).receiver_volume(), seed) {
                 let clip = matrix * point.extend(1.0);
                 let place = clip.truncate() / clip.w;
                 let step = 2.0 * reach / f64::from(size);

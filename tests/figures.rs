@@ -1,7 +1,10 @@
 //! Figures of a map that follow from others: where its camera is, and how small its texels may be.
 
 use shadowfit::glam::DVec3;
-use shadowfit::{Focus, Form, Light, Scene, Settings, Shift, View, VirtualCamera, Warp};
+use shadowfit::{
+    Focus, FocusForm, Light, Scene, Settings, View, Warp,
+    warp::{Shift, VirtualCamera},
+};
 
 /// The camera that warps is the view's own, moved back along the view axis by its shift and by nothing else.
 #[test]
@@ -12,12 +15,13 @@ fn a_shifted_camera_is_behind_the_eye() {
     // From behind the viewer, so that what casts begins behind the eye.
     let sun = Light::directional((0.1, 0.3, 1.0)).unwrap();
     let focus = Focus::new(&view, &sun, &scene);
-    for form in [Form::Paper, Form::Tight] {
+    for form in [FocusForm::ViewHull, FocusForm::ReceiverHull] {
         let settings = Settings::default().with_shift(Shift::Back(form));
         let camera = *focus.fit(&settings).map().unwrap().camera();
         assert_eq!(Some(camera), VirtualCamera::new(&focus, Shift::Back(form)));
         // The near plane is where the view's was before, and the least depth of H is at it.
-        let depths = focus.body(form).vertices().iter().map(|point| view.depth(*point)).collect::<Vec<_>>();
+        let depths =
+            focus.caster_volume(form).vertices().iter().map(|point| view.depth(*point)).collect::<Vec<_>>();
         let (least, most) = depths.iter().fold((f64::MAX, f64::MIN), |(a, b), &depth| (a.min(depth), b.max(depth)));
         assert!(least < -1.0, "{least}");
         assert_eq!(camera.shift, view.near() - least);

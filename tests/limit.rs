@@ -11,7 +11,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use shadowfit::{Focus, Light, Scene, Settings, Shift, View, Warp};
+use shadowfit::{Focus, Light, Scene, Settings, View, Warp, warp::Shift};
 use std::f64::consts::TAU;
 
 const MAP: u32 = 2048;
@@ -24,7 +24,7 @@ fn sizes() -> Settings {
 /// The limit of a map and an image of one height, squared: the texels that are needed for each pixel of its height,
 /// squared. DESIGN section 2 calls it S.
 fn needed(focus: &Focus<'_>) -> f64 {
-    (focus.limit(&sizes()) * f64::from(MAP) / f64::from(IMAGE)).powi(2)
+    (focus.aliasing_lower_bound(&sizes()) * f64::from(MAP) / f64::from(IMAGE)).powi(2)
 }
 
 /// DESIGN section 2: S = ln(f/n)/2T for light at right angles to the view with all of V as receivers.
@@ -96,7 +96,7 @@ fn nothing_visible_and_nothing_across_the_light_need_no_texels() {
     let edge_on = Scene::from_box((-1.0, -1.0, -9.0), (1.0, -1.0, -5.0)).unwrap();
     let wire = Scene::from_box((-1.0, -1.0, -9.0), (1.0, -1.0, -9.0)).unwrap();
     for scene in [behind, edge_on, wire] {
-        assert_eq!(Focus::new(&view, &sun, &scene).limit(&sizes()), 0.0);
+        assert_eq!(Focus::new(&view, &sun, &scene).aliasing_lower_bound(&sizes()), 0.0);
     }
 }
 
@@ -106,9 +106,9 @@ fn it_goes_with_pixels_over_texels() {
         View::perspective((0.0, 1.7, 0.0), (0.3, -0.1, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.3, 120.0).unwrap();
     let scene = Scene::from_box((-20.0, 0.0, -40.0), (20.0, 4.0, 10.0)).unwrap();
     let focus = Focus::new(&view, &Light::directional((0.3, 1.0, 0.4)).unwrap(), &scene);
-    let limit = |texels, pixels| focus.limit(&Settings::new(texels, pixels).unwrap());
+    let limit = |texels, pixels| focus.aliasing_lower_bound(&Settings::new(texels, pixels).unwrap());
     // Only how many texels there are matters.
-    let of_sides = |width, height| focus.limit(&sizes().with_map_sides(width, height).unwrap());
+    let of_sides = |width, height| focus.aliasing_lower_bound(&sizes().with_map_sides(width, height).unwrap());
     assert_eq!([of_sides(4096, 1024), of_sides(512, 8192)], [limit(MAP, IMAGE); 2]);
     assert_eq!(limit(1024, 1080), 2.0 * limit(2048, 1080));
     assert_eq!(limit(1024, 2160), 2.0 * limit(1024, 1080));
@@ -117,7 +117,7 @@ fn it_goes_with_pixels_over_texels() {
 /// What the limit's integral is by rays at random: each with the most that it has of any point in R, and how far that may be
 /// off, one standard deviation.
 fn by_rays(focus: &Focus<'_>, count: u32) -> (f64, f64) {
-    let (view, body) = (focus.view(), focus.visible());
+    let (view, body) = (focus.view(), focus.receiver_volume());
     let planes: Vec<_> = body.planes().collect();
     let mut random = StdRng::seed_from_u64(5);
     let mut part = || random.random_range(0.0..1.0);
@@ -202,7 +202,7 @@ fn it_is_the_integral_over_rays() {
     run(300, &seen(), |(view, light, [low, high])| {
         let scene = Scene::from_box(low, high).unwrap();
         let focus = Focus::new(&view, &light, &scene);
-        if focus.visible().volume() < 1e-3 {
+        if focus.receiver_volume().volume() < 1e-3 {
             return;
         }
         let (mean, deviation) = by_rays(&focus, 20_000);
@@ -220,9 +220,9 @@ fn no_map_has_less_aliasing() {
         let together = Together::of(&case);
         let focus = together.focus();
         if let Some(map) = focus.fit(&settings).map() {
-            let (limit, found) = (focus.limit(&settings), map.aliasing_over(&focus).unwrap());
+            let (limit, found) = (focus.aliasing_lower_bound(&settings), map.aliasing_over(&focus).unwrap());
             // Quadrature.
-            assert!(limit <= found.at_most * (1.0 + 1e-5), "{limit}, {found:?}");
+            assert!(limit <= found.upper_bound * (1.0 + 1e-5), "{limit}, {found:?}");
         }
     });
 }
@@ -237,12 +237,12 @@ fn outdoor_views_are_above_the_limit() {
     for _ in 0..500 {
         let (view, sun) = (outdoors::view(&mut random), outdoors::Kind::Sun.light(&mut random));
         let focus = Focus::new(&view, &sun, &scene);
-        let limit = focus.limit(&sizes());
+        let limit = focus.aliasing_lower_bound(&sizes());
         limits.push(limit);
         for ((settings, ratios), missed) in maps.iter().zip(&mut ratios).zip(&mut missed) {
             let map = *focus.fit(settings).map().unwrap();
             let found = map.aliasing_over(&focus).unwrap();
-            assert!(found.at_most >= limit, "{found:?}, {limit}");
+            assert!(found.upper_bound >= limit, "{found:?}, {limit}");
             ratios.push(found.worst / limit);
             *missed = missed.max(found.worst / map.report(&focus).aliasing - 1.0);
         }

@@ -1,7 +1,7 @@
 //! Scenes of lists: what is not in view, not lit, or in nobody's way counts for nothing.
 
 use shadowfit::glam::{DVec3, Vec3};
-use shadowfit::{Aabb, Focus, Form, Light, Outcome, Scene, Settings, View};
+use shadowfit::{Aabb, Focus, FocusForm, Light, Outcome, Scene, Settings, View};
 
 fn around(middle: [f32; 3], half: f32) -> Aabb {
     Aabb::new(Vec3::from(middle) - half, Vec3::from(middle) + half)
@@ -39,9 +39,10 @@ fn what_counts_for_nothing_changes_nothing() {
         let more_casters: Vec<Aabb> = aside.iter().chain(&casters).copied().collect();
         let more = Scene::new(&more_casters, &more_receivers).expect("sound");
         let with_more = Focus::new(&view, &light, &more);
-        assert_eq!(focus.visible().vertices(), with_more.visible().vertices(), "{light:?}");
+        assert_eq!(focus.receiver_volume().vertices(), with_more.receiver_volume().vertices(), "{light:?}");
         // Their hull is moved outwards by a little more, as casters are farther out.
-        let bounds = |focus: &Focus<'_>| focus.body(Form::Tight).bounds().expect("something casts");
+        let bounds =
+            |focus: &Focus<'_>| focus.caster_volume(FocusForm::ReceiverHull).bounds().expect("something casts");
         let ((min, max), (more_min, more_max)) = (bounds(&focus), bounds(&with_more));
         assert!((min - more_min).abs().max_element() <= 1e-12 && (max - more_max).abs().max_element() <= 1e-12);
         assert!(min.y >= 5.0 - 1e-12 && max.y <= 7.0 + 1e-12, "{min} {max}");
@@ -59,7 +60,7 @@ fn nothing_that_counts_is_no_map() {
             Focus::new(&view(), &light, &scene).fit(&settings)
         };
         assert!(matches!(fit(&casts, &seen), Outcome::Map(_)), "{light:?}");
-        assert_eq!(fit(&casts, &unseen), Outcome::Empty(shadowfit::Empty::NothingVisible));
-        assert_eq!(fit(&aside, &seen), Outcome::Empty(shadowfit::Empty::NothingCasts));
+        assert_eq!(fit(&casts, &unseen), Outcome::Empty(shadowfit::Empty::NoReceivers));
+        assert_eq!(fit(&aside, &seen), Outcome::Empty(shadowfit::Empty::NoCasters));
     }
 }

@@ -3,7 +3,11 @@
 #![cfg(feature = "std")]
 
 use shadowfit::glam::Vec3;
-use shadowfit::{Aabb, Budget, CubeFace, Focus, Light, Object, Objects, Reason, Scene, Settings, View, Warp, plan};
+use shadowfit::{
+    Aabb, Focus, Light, Scene, Settings, View, Warp,
+    omni::CubeFace,
+    plan::{Budget, Object, Objects, Reason, plan},
+};
 
 fn table() -> Aabb {
     Aabb::new(Vec3::new(-1.0, 0.0, -1.0), Vec3::new(1.0, 1.0, 1.0))

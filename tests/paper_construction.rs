@@ -13,7 +13,8 @@
 
 use shadowfit::glam::{DMat4, DVec3, DVec4};
 use shadowfit::{
-    ClassKind, ClipSpace, Focus, Form, Light, Map, Outcome, Scene, Settings, Shift, View, Warp, classify,
+    ClipSpace, Focus, FocusForm, Light, Outcome, Scene, Settings, ShadowMap, View, Warp,
+    warp::{ClassKind, Shift, classify},
 };
 
 /// Roundings allowed for on either side. The longest chain is a sum of four products for each of five matrices in a
@@ -47,7 +48,7 @@ fn inverted_lights_on_the_infinity_plane() {
 
 fn agree_with_the_paper(kind: ClassKind, seed: u64) {
     let mut random = Random(seed);
-    for shift in [Shift::None, Shift::Back(Form::Tight), Shift::Back(Form::Paper)] {
+    for shift in [Shift::None, Shift::Back(FocusForm::ReceiverHull), Shift::Back(FocusForm::ViewHull)] {
         let (mut compared, mut weakened, mut depths) = (0, 0, 0);
         for _ in 0..4000 {
             if let Some(case) = Case::random(kind, shift, &mut random) {
@@ -69,8 +70,8 @@ fn agree_with_the_paper(kind: ClassKind, seed: u64) {
 struct Case {
     light: Light,
     visible: Vec<DVec3>,
-    map: Map,
-    uniform: Map,
+    map: ShadowMap,
+    uniform: ShadowMap,
     paper: Paper,
     /// From units in which what is visible is about one in size.
     world_from_unit: DMat4,
@@ -95,9 +96,9 @@ impl Case {
         let Outcome::Map(uniform) = focus.fit(&settings.with_warp(Warp::Uniform)) else {
             panic!("a warp decides whether there is a map");
         };
-        let visible = focus.visible().vertices().to_vec();
+        let visible = focus.receiver_volume().vertices().to_vec();
         let paper = Paper::new(&camera, &view, &map, light.homogeneous(), &visible)?;
-        let (low, high) = focus.visible().bounds()?;
+        let (low, high) = focus.receiver_volume().bounds()?;
         let size = (high - low).max_element();
         let world_from_unit = DMat4::from_translation((low + high) * 0.5) * DMat4::from_scale(DVec3::splat(size));
         Some(Self { light, visible, map, uniform, paper, world_from_unit })
@@ -109,8 +110,8 @@ impl Case {
 
     /// The crate's rows are sums of covectors through the light and through the eye. Axes are turned, so that each
     /// component of a normal is off by roundings of its length.
-    fn our_rows(&self, map: &Map) -> Rows {
-        let matrix = map.shadow_from_world_in(ClipSpace::WGPU);
+    fn our_rows(&self, map: &ShadowMap) -> Rows {
+        let matrix = map.clip_from_world_in(ClipSpace::WGPU);
         let position = self.light.position().unwrap_or(map.camera().eye).abs();
         let centre = self.world_from_unit.w_axis.truncate().abs();
         let far = position.max(map.camera().eye.abs()).max(centre);
@@ -172,7 +173,7 @@ impl Case {
     /// Depth grows away from the light in our map, and in the paper's, unless the light is inverted. Returns how many
     /// pairs of points were compared.
     fn assert_depth_order(&self, random: &mut Random) -> usize {
-        let ours = self.map.shadow_from_world_in(ClipSpace::WGPU);
+        let ours = self.map.clip_from_world_in(ClipSpace::WGPU);
         let l = self.light.homogeneous();
         let size = self.world_from_unit.x_axis.x;
         let mut compared = 0;
@@ -233,7 +234,7 @@ struct Paper {
 }
 
 impl Paper {
-    fn new(camera: &Camera, view: &View, map: &Map, l: DVec4, visible: &[DVec3]) -> Option<Self> {
+    fn new(camera: &Camera, view: &View, map: &ShadowMap, l: DVec4, visible: &[DVec3]) -> Option<Self> {
         let camera = camera.matrix(view, map.camera().shift, map.camera().near, map.camera().far);
         let lambda = camera.on(l);
         let at_infinity = lambda.value.w == 0.0;

@@ -6,13 +6,17 @@ use parry3d::math::Vector;
 use parry3d::query::PointQuery;
 use parry3d::shape::{ConvexPolyhedron, Cuboid};
 use shadowfit::glam::{DQuat, DVec3, Vec3};
-use shadowfit::{Aabb, Body, ConvexScene, Focus, Form, Light, Problem, Scene, View};
+use shadowfit::{
+    Aabb, Focus, FocusForm, Light, Scene, View,
+    focus::ConvexBody,
+    input::{ConvexScene, InputErrorKind},
+};
 
 /// A view that sees all around the origin, up to a hundred units away, and a light above it.
-fn visible(scene: &Scene<'_>) -> Body {
+fn visible(scene: &Scene<'_>) -> ConvexBody {
     let view = View::orthographic(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 100.0, 1.0, -100.0, 100.0).unwrap();
     let light = Light::directional(DVec3::new(0.3, 1.0, 0.2)).unwrap();
-    Focus::new(&view, &light, scene).visible()
+    Focus::new(&view, &light, scene).receiver_volume()
 }
 
 /// Corners of a box of these half extents, turned.
@@ -109,9 +113,9 @@ fn bad_points_are_refused() {
         assert_eq!((error.field, error.problem), ("points", problem));
     };
     assert!(visible(&Scene::from_convex(&ConvexScene::hull_of(&[]).unwrap())).is_empty());
-    bad(&[Vec3::ZERO, Vec3::new(0.0, f32::NAN, 0.0)], Problem::NotFinite);
-    bad(&[Vec3::ZERO, Vec3::new(f32::INFINITY, 0.0, 0.0)], Problem::NotFinite);
-    bad(&[Vec3::ZERO, Vec3::new(0.0, 0.0, -1e30)], Problem::TooLarge);
+    bad(&[Vec3::ZERO, Vec3::new(0.0, f32::NAN, 0.0)], InputErrorKind::NotFinite);
+    bad(&[Vec3::ZERO, Vec3::new(f32::INFINITY, 0.0, 0.0)], InputErrorKind::NotFinite);
+    bad(&[Vec3::ZERO, Vec3::new(0.0, 0.0, -1e30)], InputErrorKind::TooLarge);
 }
 
 #[test]
@@ -119,7 +123,7 @@ fn a_focus_body_becomes_a_polyhedron() {
     let view = View::perspective(DVec3::new(0.0, 2.0, 9.0), DVec3::NEG_Z, DVec3::Y, 1.0, 1.5, 0.1, 50.0).unwrap();
     let light = Light::directional(DVec3::new(0.4, 1.0, 0.3)).unwrap();
     let scene = Scene::from_box(DVec3::new(-9.0, 0.0, -9.0), DVec3::new(9.0, 4.0, 9.0)).unwrap();
-    let body = Focus::new(&view, &light, &scene).body(Form::Tight);
+    let body = Focus::new(&view, &light, &scene).caster_volume(FocusForm::ReceiverHull);
     let polyhedron = body.to_parry().expect("a body with a volume");
     for face in body.faces() {
         for corner in face.vertices() {

@@ -14,8 +14,9 @@ use glam::DVec3;
 use rand::SeedableRng as _;
 use rand::rngs::StdRng;
 use shadowfit::{
-    Aabb, Budget, Filter, Kind, Light, LightPlan, Object, Objects, Reason, Settings, Solidity, Surface, View, Warp,
-    plan,
+    Aabb, Filter, Light, Settings, View, Warp,
+    mesh::Solidity,
+    plan::{Budget, Kind, LightPlan, Object, Objects, Reason, Surface, plan},
 };
 
 /// How many towns.
@@ -75,7 +76,7 @@ fn a_smaller_view_sees_no_more() {
 /// A thing between two corners, solid unless told otherwise, whose edges are short.
 fn thing(min: [f32; 3], max: [f32; 3]) -> Object {
     let bounds = Aabb::new(min, max);
-    Object { surface: Surface::Mesh(Solidity::Solid), longest_edge: 1e-3, ..Object::new(bounds) }
+    Object { surface: Surface::Mesh(Solidity::Watertight), longest_edge: 1e-3, ..Object::new(bounds) }
 }
 
 /// A square on the ground of so many units to each side of the origin.
@@ -126,13 +127,13 @@ macro_rules! assert_because {
 #[test]
 fn a_lamp_that_reaches_nothing_in_view_has_no_map() {
     let behind = planned(&looking_ahead(), lamp([0.0, 3.0, 40.0], 6.0), &[ground(50.0), tower()], &at_most(1024));
-    assert_because!(behind, Kind::Nothing, Reason::NothingVisible);
+    assert_because!(behind, Kind::Nothing, Reason::NoReceivers);
 }
 
 #[test]
 fn a_light_on_what_nothing_casts_on_has_no_map() {
     let alone = [Object { casts: false, ..ground(50.0) }];
-    assert_because!(planned(&looking_ahead(), sun(), &alone, &at_most(1024)), Kind::Nothing, Reason::NothingCasts);
+    assert_because!(planned(&looking_ahead(), sun(), &alone, &at_most(1024)), Kind::Nothing, Reason::NoCasters);
 }
 
 #[test]
@@ -270,8 +271,8 @@ fn points_are_tested_with_a_bias() {
 
 #[test]
 fn texels_no_larger_than_pixels_are_not_filtered_widely() {
-    let budget = at_most(8192).with_filter(Filter::PercentageCloser(5));
+    let budget = at_most(8192).with_filter(Filter::Pcf(5));
     let plan = planned(&looking_down(), sun(), &[ground(3.0), thing([0.0; 3], [1.0; 3])], &budget);
     assert_because!(&plan, Kind::Uniform, Reason::TexelsBlend(_));
-    assert_eq!(plan.filter(), Filter::Hardware);
+    assert_eq!(plan.filter(), Filter::Hardware2x2);
 }

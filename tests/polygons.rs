@@ -2,7 +2,11 @@
 //! inside all planes is inside.
 
 use shadowfit::glam::DVec3;
-use shadowfit::{Body, ConvexScene, Focus, Form, Light, Plane, Scene, View};
+use shadowfit::{
+    Focus, FocusForm, Light, Scene, View,
+    focus::{ConvexBody, Plane},
+    input::ConvexScene,
+};
 
 /// How far the computed vertices of a body may be from exact ones, in roundings of the largest coordinate of its scene:
 /// what the crate itself allows for ([`shadowfit::Focus::paraboloids`] takes twice as many, for two of them).
@@ -10,7 +14,7 @@ const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 
 /// Goes around every face and asks that each corner turn to the left, if by no more than vertices are off; and that a face
 /// be gone around once: the fan from any of its corners covers just what the polygon does.
-fn assert_polygons(body: &Body, extent: f64) {
+fn assert_polygons(body: &ConvexBody, extent: f64) {
     for face in body.faces() {
         let outward = -face.plane().normalized().normal;
         let corners: Vec<DVec3> = face.vertices().collect();
@@ -56,7 +60,11 @@ fn faces_are_convex_and_gone_around_once() {
             for light in lights {
                 let scene = Scene::from_convex(&house);
                 let focus = Focus::new(&view, &light.expect("a light"), &scene);
-                for body in [focus.visible(), focus.body(Form::Paper), focus.body(Form::Tight)] {
+                for body in [
+                    focus.receiver_volume(),
+                    focus.caster_volume(FocusForm::ViewHull),
+                    focus.caster_volume(FocusForm::ReceiverHull),
+                ] {
                     assert_polygons(&body, extent);
                     faces += body.faces().count();
                 }
@@ -73,7 +81,11 @@ fn a_body_contains_what_is_inside_all_of_its_planes() {
     let sun = Light::directional((0.4, 1.0, 0.3)).expect("a sun");
     let scene = Scene::from_box((-16.0, 0.0, -32.0), (16.0, 8.0, 16.0)).expect("a scene");
     let focus = Focus::new(&view, &sun, &scene);
-    for body in [focus.visible(), focus.body(Form::Paper), focus.body(Form::Tight)] {
+    for body in [
+        focus.receiver_volume(),
+        focus.caster_volume(FocusForm::ViewHull),
+        focus.caster_volume(FocusForm::ReceiverHull),
+    ] {
         let corners = body.vertices();
         let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
         assert!(body.contains(middle));
@@ -87,7 +99,7 @@ fn a_body_contains_what_is_inside_all_of_its_planes() {
         }
     }
     let aside = Scene::from_box((-16.0, 0.0, 20.0), (16.0, 8.0, 36.0)).expect("a scene");
-    assert!(!Focus::new(&view, &sun, &aside).visible().contains(DVec3::ZERO));
+    assert!(!Focus::new(&view, &sun, &aside).receiver_volume().contains(DVec3::ZERO));
 }
 
 /// The plane at infinity has no normal to make unit length.

@@ -1,7 +1,10 @@
 //! What a view or projection matrix may hold: each entry by itself, each axis by itself.
 
 use shadowfit::glam::{DMat4, DVec3, DVec4};
-use shadowfit::{ClipSpace, Lens, Problem, View};
+use shadowfit::{
+    ClipSpace, View,
+    input::{InputErrorKind, Lens},
+};
 
 /// A projection as rows, depth from 0 to 1: with w = −z, or with w = 1.
 fn perspective() -> [DVec4; 4] {
@@ -26,7 +29,7 @@ fn matrix([x, y, z, w]: [DVec4; 4]) -> DMat4 {
     DMat4::from_cols(x, y, z, w).transpose()
 }
 
-fn view(eye_from_world: DMat4, rows: [DVec4; 4]) -> Result<View, (&'static str, Problem)> {
+fn view(eye_from_world: DMat4, rows: [DVec4; 4]) -> Result<View, (&'static str, InputErrorKind)> {
     View::from_matrices(eye_from_world, matrix(rows), ClipSpace::WGPU).map_err(|error| (error.field, error.problem))
 }
 
@@ -83,21 +86,21 @@ fn the_last_row_decides_where_lines_of_sight_meet() {
         view(DMat4::IDENTITY, rows)
     };
     for value in [0.031_25, -0.031_25] {
-        assert_eq!(with(0, value), Err(("clip_from_eye", Problem::NotAProjection)));
-        assert_eq!(with(1, value), Err(("clip_from_eye", Problem::NotAProjection)));
+        assert_eq!(with(0, value), Err(("clip_from_eye", InputErrorKind::NotAProjection)));
+        assert_eq!(with(1, value), Err(("clip_from_eye", InputErrorKind::NotAProjection)));
     }
     let view = with(2, -0.031_25).expect("a camera");
     assert_eq!((view.lens(), view.near(), view.far()), (Lens::Perspective, 24.0, 48.0));
     assert!((view.eye() - DVec3::new(-0.5, 1.0 / 6.0, 32.0)).length() < 1e-14, "{}", view.eye());
     // The other way round the near plane is beyond the far one.
-    assert_eq!(with(2, 0.031_25), Err(("clip", Problem::LooksReversed)));
+    assert_eq!(with(2, 0.031_25), Err(("clip", InputErrorKind::LooksReversed)));
 }
 
 /// A w that is negative everywhere is no orthographic projection, and one of any size is the same as 1.
 #[test]
 fn w_of_an_orthographic_projection_is_positive() {
     let scaled = |factor: f64| orthographic().map(|row| row * factor);
-    assert_eq!(view(DMat4::IDENTITY, scaled(-1.0)), Err(("clip_from_eye", Problem::NotAProjection)));
+    assert_eq!(view(DMat4::IDENTITY, scaled(-1.0)), Err(("clip_from_eye", InputErrorKind::NotAProjection)));
     assert_eq!(view(DMat4::IDENTITY, scaled(4.0)), view(DMat4::IDENTITY, orthographic()));
 }
 

@@ -19,8 +19,10 @@ use claims::scaling;
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use shadowfit::{
-    Aabb, Body, ConvexScene, DepthFormat, Effort, Focus, Form, Light, Map, Origin, Plane, Scene, Settings, Shift,
-    View, Warp,
+    Aabb, DepthFormat, Effort, Focus, FocusForm, Light, Origin, Scene, Settings, ShadowMap, View, Warp,
+    focus::{ConvexBody, Plane},
+    input::ConvexScene,
+    warp::Shift,
 };
 
 #[test]
@@ -97,10 +99,10 @@ fn maps_change_continuously_across_the_camera_plane() {
             focus.fit(&settings).map().copied()
         };
         let Some(middle) = fit(0.0) else { return };
-        assert_eq!(fit(-0.0).map(|map| map.matrix()), Some(middle.matrix()));
-        let visible = Focus::new(&view, &crossing.light(&view, 0.0), &scene).visible();
-        let place = |map: &Map, point: DVec3| {
-            let (place, slack, _) = projected(&map.shadow_from_world(), point, reach + view.eye().abs());
+        assert_eq!(fit(-0.0).map(|map| map.caster_matrix()), Some(middle.caster_matrix()));
+        let visible = Focus::new(&view, &crossing.light(&view, 0.0), &scene).receiver_volume();
+        let place = |map: &ShadowMap, point: DVec3| {
+            let (place, slack, _) = projected(&map.clip_from_world(), point, reach + view.eye().abs());
             (place, slack.max_element())
         };
         // What rounding does to a fit, a light that is somewhere else by some roundings of the coordinates would do too.
@@ -149,7 +151,7 @@ fn a_best_map_that_may_be_either_way_up() {
     let maps = [0.0, 1e-8, -1e-8].map(|depth| {
         let light = crossing.light(&view, depth);
         let focus = Focus::new(&view, &light, &scene);
-        (focus.visible(), *focus.fit(&best(16384, 64)).map().expect("a map"))
+        (focus.receiver_volume(), *focus.fit(&best(16384, 64)).map().expect("a map"))
     });
     let (visible, first) = &maps[0];
     for (_, map) in &maps[1..] {
@@ -209,7 +211,7 @@ impl Movable {
     }
 
     /// The fit after a motion, and R.
-    fn fit(&self, settings: &Settings, turn: DQuat, offset: DVec3) -> (Option<Map>, Body) {
+    fn fit(&self, settings: &Settings, turn: DQuat, offset: DVec3) -> (Option<ShadowMap>, ConvexBody) {
         let moved = |point: DVec3| turn * point + offset;
         let eye = DVec3::from(self.eye);
         let up = DVec3::Y + eye.any_orthogonal_vector() * 0.1;
@@ -230,7 +232,7 @@ impl Movable {
         let scene = Scene::from_convex(&block);
         let (view, light) = (view.expect("a legal view"), light.expect("a legal light"));
         let focus = Focus::new(&view, &light, &scene);
-        (focus.fit(settings).map().copied(), focus.visible())
+        (focus.fit(settings).map().copied(), focus.receiver_volume())
     }
 }
 
@@ -252,8 +254,8 @@ fn turning_and_moving_everything_changes_nothing() {
         if (here.weakening() - there.weakening()).abs() > 1e-9 {
             return;
         }
-        let clip = |map: &Map, turn: DQuat, offset: DVec3| -> Vec<DVec3> {
-            let matrix = map.shadow_from_world();
+        let clip = |map: &ShadowMap, turn: DQuat, offset: DVec3| -> Vec<DVec3> {
+            let matrix = map.clip_from_world();
             visible.vertices().iter().map(|&point| matrix.project_point3(turn * point + offset)).collect()
         };
         let (here, there) = (clip(&here, DQuat::IDENTITY, DVec3::ZERO), clip(&there, turn, offset));
@@ -376,10 +378,10 @@ fn a_slope_over_a_length_that_is_too_small_to_see() {
         exercise(&view, &light, &scene, &Settings::default());
         let map = *Focus::new(&view, &light, &scene).fit(&Settings::default()).map().expect("one map does");
         // No more than a thousand by a billionth of what is seen.
-        let most = map.matrix().to_cols_array().into_iter().map(f32::abs).fold(0.0, f32::max);
+        let most = map.caster_matrix().to_cols_array().into_iter().map(f32::abs).fold(0.0, f32::max);
         assert!(most <= 1e13, "10^-{exponent}: {most:e}");
         let bias = map.bias(DepthFormat::Unorm16, 0.5).expect("a legal reach");
-        assert!(map.texture_matrix_with(&bias.offset()).is_finite());
+        assert!(map.receiver_matrix_with(&bias.offset()).is_finite());
     }
 }
 
@@ -401,7 +403,7 @@ fn casters_on_a_plain_that_is_seen_from_its_edge() {
         scene: SceneParams::Bounds { min: [-side, height, -side], max: [side, height, side] },
     };
     for (width, height) in [(16384, 64), (64, 16384), (2048, 2048)] {
-        let settings = best(width, height).with_shift(Shift::Back(Form::Tight));
+        let settings = best(width, height).with_shift(Shift::Back(FocusForm::ReceiverHull));
         for origin in [Origin::World, Origin::Eye, Origin::Light] {
             rays::end_in_the_map(&case, &settings.with_origin(origin), 11_880_504_949_425_668_649);
         }

@@ -8,7 +8,12 @@ mod arbitrary;
 use arbitrary::{Numbers, number_bits, run};
 use glam::DVec3;
 use proptest::prelude::*;
-use shadowfit::{Focus, Light, Paraboloid, Problem, Refined, Refiner, Scene, Settings, View};
+use shadowfit::{
+    Focus, Light, Scene, Settings, View,
+    input::InputErrorKind,
+    mesh::{Tessellation, Tessellator},
+    omni::Paraboloid,
+};
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
@@ -30,7 +35,7 @@ fn apart((positions, triangles): &Mesh) -> Mesh {
 }
 
 /// All positions of a refined mesh.
-fn all_positions(mesh: &Mesh, refined: &Refined) -> Vec<DVec3> {
+fn all_positions(mesh: &Mesh, refined: &Tessellation) -> Vec<DVec3> {
     mesh.0.iter().copied().chain(refined.added.iter().map(|added| added.position)).collect()
 }
 
@@ -64,7 +69,7 @@ fn angle(light: DVec3, a: DVec3, b: DVec3) -> f64 {
 }
 
 /// All that must hold of a refined mesh; the largest angle of its edges that may cast.
-fn check(mesh: &Mesh, refined: &Refined, light: DVec3, near: f64, most: f64) -> f64 {
+fn check(mesh: &Mesh, refined: &Tessellation, light: DVec3, near: f64, most: f64) -> f64 {
     let (positions, triangles) = mesh;
     let all = all_positions(mesh, refined);
     let mut largest: f64 = 0.0;
@@ -135,9 +140,9 @@ fn boxes_stay_closed() {
                 move |()| 1.2 * (2.0 * part() - 1.0)
             });
             let light = DVec3::new(5.0 * x, 3.0 * y, 10.0 * z);
-            let refiner = Refiner::new(light, 0.1, angle).expect("sound");
+            let refiner = Tessellator::new(light, 0.1, angle).expect("sound");
             let [shared, separate] = [&mesh, &own].map(|mesh| {
-                let refined = refiner.refine(&mesh.0, &mesh.1).expect("it ends");
+                let refined = refiner.tessellate(&mesh.0, &mesh.1).expect("it ends");
                 check(mesh, &refined, light, 0.1, angle);
                 let all = all_positions(mesh, &refined);
                 assert!(is_closed(&all, &refined.triangles));
@@ -155,7 +160,8 @@ fn no_more_vertices_on_an_edge_than_it_takes() {
     let light = DVec3::new(0.0, 1.0, 0.0);
     let mesh = (vec![DVec3::X * -4.0, DVec3::X * 9.0, DVec3::new(0.0, -1e-3, 0.01)], vec![[0, 1, 2]]);
     for most in [0.01, 0.1, 0.7, 1.5] {
-        let refined = Refiner::new(light, 0.1, most).expect("sound").refine(&mesh.0, &mesh.1).expect("it ends");
+        let refined =
+            Tessellator::new(light, 0.1, most).expect("sound").tessellate(&mesh.0, &mesh.1).expect("it ends");
         let on_first = refined.added.iter().filter(|added| added.corners == [0, 1, 1]).count();
         assert_eq!(on_first + 1, (angle(light, mesh.0[0], mesh.0[1]) / most).ceil() as usize);
     }
@@ -183,7 +189,8 @@ fn any_mesh_any_light() {
         let count = positions.len() as u32;
         let triangles: Vec<_> = triangles.into_iter().map(|triangle| triangle.map(|index| index % count)).collect();
         let mesh = (positions, triangles);
-        let refined = Refiner::new(light, near, angle).expect("sound").refine(&mesh.0, &mesh.1).expect("it ends");
+        let refined =
+            Tessellator::new(light, near, angle).expect("sound").tessellate(&mesh.0, &mesh.1).expect("it ends");
         check(&mesh, &refined, light, near, angle);
     });
 }
@@ -191,8 +198,8 @@ fn any_mesh_any_light() {
 #[test]
 fn hostile_meshes_end() {
     let limit = Duration::from_secs(5);
-    let far = shadowfit::MAX_COORDINATE;
-    let tiny = shadowfit::MIN_DISTANCE;
+    let far = shadowfit::input::MAX_COORDINATE;
+    let tiny = shadowfit::input::MIN_DISTANCE;
     let plane = [DVec3::new(-1.0, 0.0, -1.0), DVec3::new(0.0, 0.0, 1.0), DVec3::new(1.0, 0.0, -1.0)];
     let lights =
         [DVec3::ZERO, plane[0], plane[0].midpoint(plane[2]), DVec3::Y * 1e-9, DVec3::Y * tiny, DVec3::X * 3.0];
@@ -202,10 +209,12 @@ fn hostile_meshes_end() {
                 for angle in [1e-300, 1e-9, 1e-3, 0.1] {
                     let began = Instant::now();
                     let refiner =
-                        Refiner::new(light * scale.min(1e6), near, angle).expect("sound").with_limit(20_000);
-                    match refiner.refine(&plane.map(|point| point * scale), &[[0, 1, 2]]) {
+                        Tessellator::new(light * scale.min(1e6), near, angle).expect("sound").with_limit(20_000);
+                    match refiner.tessellate(&plane.map(|point| point * scale), &[[0, 1, 2]]) {
                         Ok(refined) => assert!(refined.triangles.len() <= 20_000),
-                        Err(error) => assert_eq!((error.field, error.problem), ("triangles", Problem::TooMany)),
+                        Err(error) => {
+                            assert_eq!((error.field, error.problem), ("triangles", InputErrorKind::TooMany))
+                        }
                     }
                     assert!(began.elapsed() < limit, "{scale} {light} {near} {angle}: {:?}", began.elapsed());
                 }
@@ -217,29 +226,35 @@ fn hostile_meshes_end() {
 #[test]
 fn errors_name_the_field() {
     let refused = |light: DVec3, near, angle| {
-        let error = Refiner::new(light, near, angle).expect_err("it is refused");
+        let error = Tessellator::new(light, near, angle).expect_err("it is refused");
         (error.field, error.problem)
     };
-    assert_eq!(refused(DVec3::NAN, 0.1, 0.1), ("light", Problem::NotFinite));
-    assert_eq!(refused(DVec3::ZERO, 0.0, 0.1), ("near", Problem::TooSmall));
+    assert_eq!(refused(DVec3::NAN, 0.1, 0.1), ("light", InputErrorKind::NotFinite));
+    assert_eq!(refused(DVec3::ZERO, 0.0, 0.1), ("near", InputErrorKind::TooSmall));
     for angle in [0.0, -1.0, 1.6, f64::NAN, f64::INFINITY] {
-        assert_eq!(refused(DVec3::ZERO, 0.1, angle), ("angle", Problem::AngleOutOfRange));
+        assert_eq!(refused(DVec3::ZERO, 0.1, angle), ("angle", InputErrorKind::AngleOutOfRange));
     }
-    let refiner = Refiner::new(DVec3::ZERO, 0.1, 0.1).expect("sound");
+    let refiner = Tessellator::new(DVec3::ZERO, 0.1, 0.1).expect("sound");
     let positions = [DVec3::X, DVec3::Y, DVec3::Z];
-    let refused = |refiner: &Refiner, positions: &[DVec3], triangle| {
-        let error = refiner.refine(positions, &[triangle]).expect_err("it is refused");
+    let refused = |refiner: &Tessellator, positions: &[DVec3], triangle| {
+        let error = refiner.tessellate(positions, &[triangle]).expect_err("it is refused");
         (error.field, error.problem)
     };
-    assert_eq!(refused(&refiner, &positions, [0, 1, 3]), ("triangles", Problem::OutOfRange));
-    assert_eq!(refused(&refiner, &positions, [0, 1, u32::MAX]), ("triangles", Problem::OutOfRange));
-    assert_eq!(refused(&refiner, &[DVec3::X, DVec3::NAN, DVec3::Z], [0, 1, 2]), ("positions", Problem::NotFinite));
+    assert_eq!(refused(&refiner, &positions, [0, 1, 3]), ("triangles", InputErrorKind::OutOfRange));
+    assert_eq!(refused(&refiner, &positions, [0, 1, u32::MAX]), ("triangles", InputErrorKind::OutOfRange));
+    assert_eq!(
+        refused(&refiner, &[DVec3::X, DVec3::NAN, DVec3::Z], [0, 1, 2]),
+        ("positions", InputErrorKind::NotFinite)
+    );
     assert_eq!(
         refused(&refiner, &[DVec3::X * 1e13, DVec3::Y, DVec3::Z], [0, 1, 2]),
-        ("positions", Problem::TooLarge)
+        ("positions", InputErrorKind::TooLarge)
     );
-    assert_eq!(refused(&refiner.with_limit(3), &positions, [0, 1, 2]), ("triangles", Problem::TooMany));
-    assert_eq!(refiner.refine(&[], &[]), Ok(Refined { added: vec![], triangles: vec![], sources: vec![] }));
+    assert_eq!(refused(&refiner.with_limit(3), &positions, [0, 1, 2]), ("triangles", InputErrorKind::TooMany));
+    assert_eq!(
+        refiner.tessellate(&[], &[]),
+        Ok(Tessellation { added: vec![], triangles: vec![], sources: vec![] })
+    );
 }
 
 #[test]
@@ -247,8 +262,8 @@ fn any_numbers_at_all() {
     let numbers = || prop::array::uniform3(number_bits());
     let strategy = (prop::array::uniform4(numbers()), numbers(), number_bits());
     run(3000, &strategy, |([light, a, b, c], [near, angle, _], _)| {
-        if let Ok(refiner) = Refiner::new(light, near, angle) {
-            let _ = refiner.with_limit(2000).refine(&[a, b, c].map(DVec3::from), &[[0, 1, 2]]);
+        if let Ok(refiner) = Tessellator::new(light, near, angle) {
+            let _ = refiner.with_limit(2000).tessellate(&[a, b, c].map(DVec3::from), &[[0, 1, 2]]);
         }
     });
 }
@@ -265,9 +280,9 @@ fn a_room_costs_so_many_triangles() {
     let map: &Paraboloid = &maps.maps()[0];
     for texels in [0.5, 1.0] {
         let angle = map.largest_edge(texels);
-        let refiner = Refiner::new(DVec3::ZERO, 0.1, angle).expect("sound");
+        let refiner = Tessellator::new(DVec3::ZERO, 0.1, angle).expect("sound");
         let began = Instant::now();
-        let refined = refiner.refine(&mesh.0, &mesh.1).expect("it ends");
+        let refined = refiner.tessellate(&mesh.0, &mesh.1).expect("it ends");
         let took = began.elapsed();
         let largest = check(&mesh, &refined, DVec3::ZERO, 0.1, angle);
         let triangles = refined.triangles.len();

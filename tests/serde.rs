@@ -7,9 +7,15 @@ use serde::de::DeserializeOwned;
 use serde_json::{Value, from_str, from_value, json, to_string, to_value};
 use shadowfit::glam::{DMat4, DVec3, DVec4, Vec3};
 use shadowfit::{
-    Aabb, Budget, ClipSpace, CubeFace, Cuts, DepthBias, DepthFormat, DepthResolution, DepthSpan, Effort, Empty,
-    Filter, Focus, Footprint, Form, Layout, Light, LightClass, NearCase, Object, Offset, Origin, Outcome, Plane,
-    Reason, Refusal, Scene, Settings, Shift, Slices, Split, View, VirtualCamera, Warp, Window, classify,
+    Aabb, ClipSpace, DepthFormat, Effort, Empty, Filter, Focus, FocusForm, Light, Origin, Outcome, Scene, Settings,
+    View, Warp, WarpFallback,
+    cascades::{CascadeLayout, CascadeSplits, Cascades, SplitScheme},
+    depth::{DepthBias, ReceiverOffset},
+    focus::Plane,
+    map::{DepthResolution, DepthSpan, Footprint, Window},
+    omni::CubeFace,
+    plan::{Budget, Object, Reason},
+    warp::{LightClass, NearCase, Shift, VirtualCamera, classify},
 };
 
 #[track_caller]
@@ -152,14 +158,14 @@ fn tampered_lights() {
 
 #[test]
 fn slices() {
-    [Split::Uniform, Split::Logarithmic, Split::Blended(0.1)].into_iter().for_each(comes_back);
-    [Layout::Array, Layout::Atlas].into_iter().for_each(comes_back);
+    [SplitScheme::Uniform, SplitScheme::Logarithmic, SplitScheme::Practical(0.1)].into_iter().for_each(comes_back);
+    [CascadeLayout::Array, CascadeLayout::Atlas].into_iter().for_each(comes_back);
     let scene = Scene::from_box((-50.0, -3.0, -90.0), (50.0, 5.0, 0.0)).unwrap();
-    let cuts = Cuts::Visible { count: 5, split: Split::Blended(0.1) };
-    let slices = Slices::new(&view(100.0), &spot(), &scene, cuts, 0.1).unwrap();
+    let cuts = CascadeSplits::Visible { count: 5, split: SplitScheme::Practical(0.1) };
+    let slices = Cascades::new(&view(100.0), &spot(), &scene, cuts, 0.1).unwrap();
     let maps = slices.fit(&Settings::default());
-    comes_back(maps.extent(Layout::Atlas));
-    comes_back(maps.tile(4, Layout::Atlas).unwrap());
+    comes_back(maps.extent(CascadeLayout::Atlas));
+    comes_back(maps.tile(4, CascadeLayout::Atlas).unwrap());
 }
 
 #[test]
@@ -167,7 +173,7 @@ fn settings() {
     comes_back(Settings::default());
     let settings = Settings::new(512, 720).unwrap().with_border(7).unwrap();
     let settings = settings.with_clip(ClipSpace::OPENGL.reversed()).with_origin(Origin::Eye);
-    comes_back(settings.with_warp(Warp::Uniform).with_shift(Shift::Back(Form::Tight)));
+    comes_back(settings.with_warp(Warp::Uniform).with_shift(Shift::Back(FocusForm::ReceiverHull)));
     for warp in [Warp::Stable, Warp::LightSpace, Warp::Trapezoidal, Warp::Best(Effort::Rough)] {
         comes_back(settings.with_warp(warp));
     }
@@ -197,12 +203,12 @@ fn settings_of_one_size() {
 #[test]
 fn budgets() {
     let budget = Budget::new(Settings::default()).with_format(DepthFormat::Float32).with_texels(9);
-    let budget = budget.with_filter(Filter::PercentageCloser(5)).with_aliasing(0.5).unwrap();
+    let budget = budget.with_filter(Filter::Pcf(5)).with_aliasing(0.5).unwrap();
     comes_back(budget);
     tampered(&budget, "/aliasing", json!(0.0), "aliasing is too small");
     tampered(&budget, "/settings/map_height", json!(0), "map_height must lie in [4, 65536]; got 0");
     comes_back(Object::new(Aabb::new(Vec3::NEG_ONE, Vec3::ONE)));
-    comes_back([Reason::NothingCasts, Reason::WarpFiner(0.5), Reason::Faces(3)]);
+    comes_back([Reason::NoCasters, Reason::WarpFiner(0.5), Reason::Faces(3)]);
 }
 
 #[test]
@@ -220,25 +226,33 @@ fn results() {
     comes_back::<DepthSpan>(report.depth);
     comes_back::<DepthResolution>(report.depth_resolution);
     comes_back::<DepthBias>(map.bias(DepthFormat::Float32, 1.5).unwrap());
-    comes_back([Offset::world(0.1), Offset::relative(1e-3), Offset::depth(1e-4)].map(Result::unwrap));
-    comes_back(Offset::world(0.1).unwrap().and_depth(1e-4).unwrap());
+    comes_back(
+        [ReceiverOffset::world(0.1), ReceiverOffset::relative(1e-3), ReceiverOffset::depth(1e-4)]
+            .map(Result::unwrap),
+    );
+    comes_back(ReceiverOffset::world(0.1).unwrap().and_depth(1e-4).unwrap());
     tampered(
-        &Offset::relative(0.1).unwrap(),
+        &ReceiverOffset::relative(0.1).unwrap(),
         "/towards/Relative",
         json!(-2.0),
         "part must lie in [-0.5, 2⁴⁰]; got -2",
     );
-    comes_back::<Footprint>(map.footprint(focus.visible().vertices()[0]).unwrap());
+    comes_back::<Footprint>(map.footprint(focus.receiver_volume().vertices()[0]).unwrap());
     comes_back::<Plane>(report.body.planes().next().unwrap());
     comes_back(Aabb::new(Vec3::NEG_ONE, Vec3::ONE * 0.1));
-    comes_back([Empty::NothingVisible, Empty::NothingCasts]);
-    let (min, max) = focus.visible().bounds().unwrap();
+    comes_back([Empty::NoReceivers, Empty::NoCasters]);
+    let (min, max) = focus.receiver_volume().bounds().unwrap();
     let inside = Light::point(0.5 * (min + max), 0.1, 9.0).unwrap();
     let Outcome::Surrounded(surrounded) = Focus::new(&view, &inside, &scene).fit(&Settings::default()) else {
         panic!("a map");
     };
     comes_back(surrounded);
-    comes_back([Refusal::NoPerspective, Refusal::AlongView, Refusal::FocusBehindLight, Refusal::FocusLarge]);
+    comes_back([
+        WarpFallback::NoPerspective,
+        WarpFallback::AlongView,
+        WarpFallback::FocusBehindLight,
+        WarpFallback::FocusLarge,
+    ]);
     comes_back([DepthFormat::Unorm8, DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32]);
     comes_back([NearCase::CameraPlane, NearCase::AlongView, NearCase::Eye, NearCase::InsideView]);
 }

@@ -13,7 +13,7 @@ use arbitrary::{Case, Frame, LightParams, Pose, SceneParams, ViewParams, WARPS, 
 use claims::single_precision::{holds_what_it_must, is_as_quiet_as_it_says, rounding};
 use glam::DVec3;
 use proptest::prelude::*;
-use shadowfit::{ClipSpace, Focus, Light, Origin, Scene, Settings, Shift, View};
+use shadowfit::{ClipSpace, Focus, Light, Origin, Scene, Settings, View, warp::Shift};
 
 #[test]
 fn maps_hold_what_they_must() {
@@ -47,9 +47,9 @@ fn a_plate_under_light_from_above_does_not_drown_in_noise() {
                 let focus = Focus::new(&view, &light, &scene);
                 let map = *focus.fit(&settings).map().expect("one map does");
                 let of_w = |point: &DVec3| rounding(&map, *point).1;
-                let of_w = focus.visible().vertices().iter().map(of_w).fold(0.0, f64::max);
-                for point in focus.visible().vertices() {
-                    let w = (map.shadow_from_world() * point.extend(1.0)).w;
+                let of_w = focus.receiver_volume().vertices().iter().map(of_w).fold(0.0, f64::max);
+                for point in focus.receiver_volume().vertices() {
+                    let w = (map.clip_from_world() * point.extend(1.0)).w;
                     let noise = map.depth_rounding(*point) * w;
                     assert!(noise <= 16.0 / 16_777_216.0 + 2.0 * of_w, "{light:?}, {warp:?}, {origin:?}: {noise}");
                 }

@@ -11,8 +11,12 @@ use claims::slices::{self, cutting};
 use glam::{DVec2, DVec3, Vec3, Vec4};
 use proptest::prelude::*;
 use shadowfit::{
-    Aabb, Cuts, Empty, Extent, InputError, Layout, Light, MAX_COORDINATE, MIN_DISTANCE, Offset, Outcome, Problem,
-    Scene, Settings, Shift, SliceUniform, Slices, Split, View, Warp, fit,
+    Aabb, Empty, InputError, Light, Outcome, Scene, Settings, View, Warp,
+    cascades::{CascadeLayout, CascadeSplits, CascadeUniform, Cascades, SplitScheme, TextureExtent},
+    depth::ReceiverOffset,
+    fit,
+    input::{InputErrorKind, MAX_COORDINATE, MIN_DISTANCE},
+    warp::Shift,
 };
 
 /// The field of view with 2T = 1, twice the angle whose tangent is a half.
@@ -34,28 +38,28 @@ fn around(far: f64) -> Scene<'static> {
     Scene::from_box(DVec3::splat(-2.0 * far), DVec3::splat(2.0 * far)).unwrap()
 }
 
-fn fars(slices: &Slices<'_>) -> Vec<f64> {
+fn fars(slices: &Cascades<'_>) -> Vec<f64> {
     slices.iter().map(|slice| slice.far).collect()
 }
 
 /// Cuts that can be worked out by hand, and those of Zhang et al.'s formula for a view from 1 to 1000.
 #[test]
 fn cuts_are_where_the_formulas_say() {
-    let at = |near: f64, far: f64, count: usize, split: Split| {
-        let cuts = Cuts::View { count, split };
-        fars(&Slices::new(&view(near, far), &overhead(), &around(far), cuts, 0.0).unwrap())
+    let at = |near: f64, far: f64, count: usize, split: SplitScheme| {
+        let cuts = CascadeSplits::View { count, split };
+        fars(&Cascades::new(&view(near, far), &overhead(), &around(far), cuts, 0.0).unwrap())
     };
-    assert_eq!(at(1.0, 16.0, 4, Split::Logarithmic), [2.0, 4.0, 8.0, 16.0]);
-    assert_eq!(at(1.0, 256.0, 8, Split::Logarithmic), [2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0]);
-    assert_eq!(at(1.0, 1000.0, 3, Split::Logarithmic), [10.0, 100.0, 1000.0]);
-    assert_eq!(at(0.5, 40.5, 2, Split::Logarithmic), [4.5, 40.5]);
-    assert_eq!(at(1.0, 16.0, 4, Split::Uniform), [4.75, 8.5, 12.25, 16.0]);
-    assert_eq!(at(1.0, 16.0, 4, Split::Blended(0.5)), [3.375, 6.25, 10.125, 16.0]);
-    assert_eq!(at(1.0, 16.0, 4, Split::Blended(0.0)), [4.75, 8.5, 12.25, 16.0]);
-    assert_eq!(at(1.0, 16.0, 4, Split::Blended(1.0)), [2.0, 4.0, 8.0, 16.0]);
+    assert_eq!(at(1.0, 16.0, 4, SplitScheme::Logarithmic), [2.0, 4.0, 8.0, 16.0]);
+    assert_eq!(at(1.0, 256.0, 8, SplitScheme::Logarithmic), [2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0]);
+    assert_eq!(at(1.0, 1000.0, 3, SplitScheme::Logarithmic), [10.0, 100.0, 1000.0]);
+    assert_eq!(at(0.5, 40.5, 2, SplitScheme::Logarithmic), [4.5, 40.5]);
+    assert_eq!(at(1.0, 16.0, 4, SplitScheme::Uniform), [4.75, 8.5, 12.25, 16.0]);
+    assert_eq!(at(1.0, 16.0, 4, SplitScheme::Practical(0.5)), [3.375, 6.25, 10.125, 16.0]);
+    assert_eq!(at(1.0, 16.0, 4, SplitScheme::Practical(0.0)), [4.75, 8.5, 12.25, 16.0]);
+    assert_eq!(at(1.0, 16.0, 4, SplitScheme::Practical(1.0)), [2.0, 4.0, 8.0, 16.0]);
     // (5.6234 + 250.75)/2, (31.6228 + 500.5)/2, (177.8279 + 750.25)/2, to f32.
     let single = [128.186_7_f32, 266.061_4, 464.038_97].map(f64::from);
-    let ours = at(1.0, 1000.0, 4, Split::Blended(0.5));
+    let ours = at(1.0, 1000.0, 4, SplitScheme::Practical(0.5));
     for (ours, right) in ours.iter().zip(single) {
         assert!((ours - right).abs() < 1e-4, "{ours} {right}");
     }
@@ -66,8 +70,8 @@ fn cuts_are_where_the_formulas_say() {
 fn cuts_follow_what_is_visible() {
     let scene = Scene::from_box((-1.0, -1.0, -81.0), (1.0, 1.0, -5.0)).unwrap();
     let far = view(0.01, f64::INFINITY);
-    let cuts = Cuts::Visible { count: 4, split: Split::Logarithmic };
-    let slices = Slices::new(&far, &overhead(), &scene, cuts, 0.0).unwrap();
+    let cuts = CascadeSplits::Visible { count: 4, split: SplitScheme::Logarithmic };
+    let slices = Cascades::new(&far, &overhead(), &scene, cuts, 0.0).unwrap();
     // Corners are off by the slack of planes, which f32 does not see.
     let ratio: f64 = 81.0 / 5.0;
     let roots = [ratio.sqrt().sqrt(), ratio.sqrt(), ratio.sqrt() * ratio.sqrt().sqrt()];
@@ -76,9 +80,9 @@ fn cuts_follow_what_is_visible() {
     }
     assert_eq!((slices[0].near, slices[3].far), (0.01, f64::INFINITY));
     // Of the view's own planes, infinity cannot be split.
-    let planes = Cuts::View { count: 2, split: Split::Uniform };
-    refused(Slices::new(&far, &overhead(), &scene, planes, 0.0), "view", Problem::NotFinite);
-    assert_eq!(Slices::new(&far, &overhead(), &scene, Cuts::At(&[7.0, 20.0]), 0.0).unwrap().len(), 3);
+    let planes = CascadeSplits::View { count: 2, split: SplitScheme::Uniform };
+    refused(Cascades::new(&far, &overhead(), &scene, planes, 0.0), "view", InputErrorKind::NotFinite);
+    assert_eq!(Cascades::new(&far, &overhead(), &scene, CascadeSplits::At(&[7.0, 20.0]), 0.0).unwrap().len(), 3);
 }
 
 /// A wall across the view has one depth, which is in one slice.
@@ -86,8 +90,9 @@ fn cuts_follow_what_is_visible() {
 fn what_has_one_depth_is_not_cut() {
     let wall = Scene::from_box((-9.0, -9.0, -10.0), (9.0, 9.0, -10.0)).unwrap();
     let sun = Light::directional((0.3, 1.0, 1.0)).unwrap();
-    for split in [Split::Uniform, Split::Logarithmic, Split::Blended(0.5)] {
-        let slices = Slices::new(&view(1.0, 90.0), &sun, &wall, Cuts::Visible { count: 8, split }, 0.5).unwrap();
+    for split in [SplitScheme::Uniform, SplitScheme::Logarithmic, SplitScheme::Practical(0.5)] {
+        let slices =
+            Cascades::new(&view(1.0, 90.0), &sun, &wall, CascadeSplits::Visible { count: 8, split }, 0.5).unwrap();
         assert_eq!(slices.len(), 1);
         assert!(slices.fit(&Settings::default()).outcomes()[0].map().is_some());
     }
@@ -97,18 +102,18 @@ fn what_has_one_depth_is_not_cut() {
 #[test]
 fn cuts_of_the_planes_stay() {
     let scene = Scene::from_box((-50.0, -3.0, -50.0), (50.0, 5.0, 50.0)).unwrap();
-    let at = |x: f64, cuts: Cuts<'_>| {
+    let at = |x: f64, cuts: CascadeSplits<'_>| {
         let view = View::perspective((x, 0.0, 0.0), (0.3 * x, -0.1, -1.0), DVec3::Y, 1.0, 1.5, 0.5, 200.0).unwrap();
-        fars(&Slices::new(&view, &overhead(), &scene, cuts, 0.1).unwrap())
+        fars(&Cascades::new(&view, &overhead(), &scene, cuts, 0.1).unwrap())
     };
-    let split = Split::Blended(0.7);
-    let steady = Cuts::View { count: 4, split };
+    let split = SplitScheme::Practical(0.7);
+    let steady = CascadeSplits::View { count: 4, split };
     assert_eq!(at(0.0, steady), at(1.0, steady));
-    let moving = Cuts::Visible { count: 4, split };
+    let moving = CascadeSplits::Visible { count: 4, split };
     assert_ne!(at(0.0, moving), at(1.0, moving));
     // Kept, they stay too.
     let kept = at(0.0, moving);
-    assert_eq!(at(1.0, Cuts::At(&kept[..3])), kept);
+    assert_eq!(at(1.0, CascadeSplits::At(&kept[..3])), kept);
 }
 
 /// DESIGN section 2, with its light overhead and all of V receiving: a uniform map of a view from n to f needs f/n texels
@@ -125,15 +130,15 @@ fn logarithmic_slices_need_as_little_as_derived() {
     for far in [10.0, 100.0, 1000.0, 1e4_f64] {
         let mut before = f64::INFINITY;
         for (count, ratio) in [(1, far), (2, far.sqrt()), (4, far.sqrt().sqrt()), (8, far.sqrt().sqrt().sqrt())] {
-            let cuts = Cuts::View { count, split: Split::Logarithmic };
-            let slices = Slices::new(&view(1.0, far), &overhead(), &around(far), cuts, 0.0).unwrap();
+            let cuts = CascadeSplits::View { count, split: SplitScheme::Logarithmic };
+            let slices = Cascades::new(&view(1.0, far), &overhead(), &around(far), cuts, 0.0).unwrap();
             assert_eq!(slices.len(), count);
             let maps = slices.fit(&settings);
             let wider = (16.0 * 1.5_f64.sqrt() + 2.0) * UNIT;
             let mut texels = 0.0;
             for (index, map) in maps.maps() {
                 let (across, along) = map.window().padding;
-                let visible = slices[index].focus.visible();
+                let visible = slices[index].focus.receiver_volume();
                 let needed = visible.vertices().iter().fold((0.0, 0.0), |(rs, rt): (f64, f64), &point| {
                     let (texel, pixel) = (map.footprint(point).unwrap(), map.pixel_size(point));
                     let (x, y) = (texel.along_x.length() / pixel, texel.along_y.length() / pixel);
@@ -165,16 +170,16 @@ fn what_nobody_sees_is_dropped() {
     let hill = boxed([-50.0, -1.0, -400.0], [50.0, 20.0, -300.0]);
     let tree = boxed([3.0, -1.0, -350.0], [5.0, 30.0, -348.0]);
     let view = view(1.0, 500.0);
-    let cuts = Cuts::At(&[20.0, 100.0, 250.0]);
+    let cuts = CascadeSplits::At(&[20.0, 100.0, 250.0]);
     let (casters, receivers) = ([tree], [field, hill]);
     let scene = Scene::new(&casters, &receivers).unwrap();
-    let slices = Slices::new(&view, &overhead(), &scene, cuts, 0.1).unwrap();
+    let slices = Cascades::new(&view, &overhead(), &scene, cuts, 0.1).unwrap();
     let maps = slices.fit(&Settings::default());
-    assert_eq!(maps.outcomes()[0], Outcome::Empty(Empty::NothingCasts));
-    assert_eq!(maps.outcomes()[1], Outcome::Empty(Empty::NothingVisible));
-    assert_eq!(maps.outcomes()[2], Outcome::Empty(Empty::NothingVisible));
+    assert_eq!(maps.outcomes()[0], Outcome::Empty(Empty::NoCasters));
+    assert_eq!(maps.outcomes()[1], Outcome::Empty(Empty::NoReceivers));
+    assert_eq!(maps.outcomes()[2], Outcome::Empty(Empty::NoReceivers));
     assert!(maps.outcomes()[3].map().is_some());
-    assert!(slices[1].focus.visible().is_empty() && slices[2].focus.visible().is_empty());
+    assert!(slices[1].focus.receiver_volume().is_empty() && slices[2].focus.receiver_volume().is_empty());
     let report = maps.report();
     assert_eq!((report.slices, report.maps, report.worst), (4, 1, Some(3)));
     assert_eq!((report.nothing_visible, report.nothing_casts, report.surrounded), (2, 1, 0));
@@ -183,8 +188,8 @@ fn what_nobody_sees_is_dropped() {
     assert_eq!((report.aliasing, report.texel), (whole.aliasing, whole.texel));
     assert!(maps.report_of(0).is_none() && maps.report_of(4).is_none());
     // One map takes no room of the others, whatever their number was.
-    for layout in [Layout::Array, Layout::Atlas] {
-        assert_eq!(maps.extent(layout), Extent { width: 2048, height: 2048, layers: 1 });
+    for layout in [CascadeLayout::Array, CascadeLayout::Atlas] {
+        assert_eq!(maps.extent(layout), TextureExtent { width: 2048, height: 2048, layers: 1 });
         assert!(maps.tile(0, layout).is_none() && maps.tile(3, layout).is_some_and(|tile| tile.layer == 0));
         assert_eq!(maps.uniform(layout, |_| None).layer, [-1, -1, -1, 0, -1, -1, -1, -1]);
     }
@@ -197,7 +202,7 @@ fn a_lamp_surrounds_itself_with_one_slice() {
     let lamp = Light::point((0.0, 0.0, -30.0), 0.1, 100.0).unwrap();
     let view = view(1.0, 100.0);
     assert!(matches!(fit(&view, &lamp, &scene, &Settings::default()), Outcome::Surrounded(_)));
-    let slices = Slices::new(&view, &lamp, &scene, Cuts::At(&[20.0, 40.0]), 0.0).unwrap();
+    let slices = Cascades::new(&view, &lamp, &scene, CascadeSplits::At(&[20.0, 40.0]), 0.0).unwrap();
     let maps = slices.fit(&Settings::default());
     let report = maps.report();
     assert_eq!((report.maps, report.surrounded), (2, 1));
@@ -211,9 +216,9 @@ fn reports_are_of_the_worst_slice() {
     let sun = Light::directional((0.3, 1.0, 0.2)).unwrap();
     let settings = Settings::default().with_warp(Warp::Uniform);
     let mut before = f64::INFINITY;
-    for count in 1..=Slices::MAX {
-        let cuts = Cuts::Visible { count, split: Split::Logarithmic };
-        let slices = Slices::new(&view(1.0, 80.0), &sun, &scene, cuts, 0.1).unwrap();
+    for count in 1..=Cascades::MAX {
+        let cuts = CascadeSplits::Visible { count, split: SplitScheme::Logarithmic };
+        let slices = Cascades::new(&view(1.0, 80.0), &sun, &scene, cuts, 0.1).unwrap();
         let maps = slices.fit(&settings);
         let report = maps.report();
         let each: Vec<f64> = (0..count).map(|index| maps.report_of(index).unwrap().aliasing).collect();
@@ -242,15 +247,15 @@ fn tiles_fill_atlases((width, height): (u32, u32), grids: [(u32, u32); 8]) {
     let scene = Scene::from_box((-50.0, -3.0, -90.0), (50.0, 5.0, 0.0)).unwrap();
     let sun = Light::directional((0.3, 1.0, 0.2)).unwrap();
     for (count, (across, down)) in (1..).zip(grids) {
-        let cuts = Cuts::Visible { count, split: Split::Logarithmic };
-        let slices = Slices::new(&view(1.0, 80.0), &sun, &scene, cuts, 0.1).unwrap();
+        let cuts = CascadeSplits::Visible { count, split: SplitScheme::Logarithmic };
+        let slices = Cascades::new(&view(1.0, 80.0), &sun, &scene, cuts, 0.1).unwrap();
         let settings = Settings::new(512, 1080).unwrap().with_map_sides(width, height).unwrap();
         let maps = slices.fit(&settings.with_border(2).unwrap());
-        let atlas = Extent { width: across * width, height: down * height, layers: 1 };
-        assert_eq!(maps.extent(Layout::Atlas), atlas);
-        assert_eq!(maps.extent(Layout::Array), Extent { width, height, layers: count as u32 });
+        let atlas = TextureExtent { width: across * width, height: down * height, layers: 1 };
+        assert_eq!(maps.extent(CascadeLayout::Atlas), atlas);
+        assert_eq!(maps.extent(CascadeLayout::Array), TextureExtent { width, height, layers: count as u32 });
         assert_eq!(maps.report().texels, count as u64 * u64::from(width * height));
-        let tiles: Vec<_> = (0..count).map(|index| maps.tile(index, Layout::Atlas).unwrap()).collect();
+        let tiles: Vec<_> = (0..count).map(|index| maps.tile(index, CascadeLayout::Atlas).unwrap()).collect();
         for (index, tile) in tiles.iter().enumerate() {
             assert_eq!((tile.layer, tile.size, tile.extent), (0, (width, height), atlas));
             let (x, y) = tile.corner;
@@ -263,10 +268,10 @@ fn tiles_fill_atlases((width, height): (u32, u32), grids: [(u32, u32); 8]) {
             let (least, most) = tile.inner(2);
             assert!(((least - offset) * size - 2.0).length() < 1e-9);
             assert!(((most - least) * size - (texels(tile.size) - 4.0)).length() < 1e-9);
-            let layer = maps.tile(index, Layout::Array).unwrap();
+            let layer = maps.tile(index, CascadeLayout::Array).unwrap();
             assert_eq!((layer.layer, layer.corner), (index as u32, (0, 0)));
             let map = maps.outcomes()[index].map().unwrap();
-            assert_eq!(layer.texture_matrix(map, None), map.texture_matrix());
+            assert_eq!(layer.receiver_matrix(map, None), map.receiver_matrix());
         }
     }
 }
@@ -275,15 +280,15 @@ fn tiles_fill_atlases((width, height): (u32, u32), grids: [(u32, u32); 8]) {
 #[test]
 fn a_block_is_its_words() {
     let scene = Scene::from_box((-50.0, -3.0, -90.0), (50.0, 5.0, 0.0)).unwrap();
-    let cuts = Cuts::At(&[5.0, 20.0]);
-    let slices = Slices::new(&view(1.0, 80.0), &overhead(), &scene, cuts, 0.25).unwrap();
+    let cuts = CascadeSplits::At(&[5.0, 20.0]);
+    let slices = Cascades::new(&view(1.0, 80.0), &overhead(), &scene, cuts, 0.25).unwrap();
     let maps = slices.fit(&Settings::default());
-    let offset = Offset::depth(0.01).unwrap();
-    let uniform = maps.uniform(Layout::Atlas, |_| Some(offset));
+    let offset = ReceiverOffset::depth(0.01).unwrap();
+    let uniform = maps.uniform(CascadeLayout::Atlas, |_| Some(offset));
     let bytes = uniform.to_bytes();
     let word = |index: usize| [0, 1, 2, 3].map(|byte| bytes[4 * index + byte]);
     let float = |index: usize| f32::from_le_bytes(word(index));
-    assert_eq!(bytes.len(), SliceUniform::SIZE);
+    assert_eq!(bytes.len(), CascadeUniform::SIZE);
     assert_eq!(float(16 + 5), uniform.texture_from_origin[1][5]);
     assert_eq!(float(128 + 6), uniform.inner[1][2]);
     assert_eq!([160, 161, 162, 167].map(float), [5.0, 20.0, f32::MAX, f32::MAX]);
@@ -291,9 +296,9 @@ fn a_block_is_its_words() {
     assert_eq!([176, 177, 178, 179].map(|index| i32::from_le_bytes(word(index))), [0, 0, 0, -1]);
     // The offset is in the matrices.
     let map = maps.outcomes()[1].map().unwrap();
-    let tile = maps.tile(1, Layout::Atlas).unwrap();
-    assert_eq!(tile.texture_matrix(map, Some(&offset)).to_cols_array(), uniform.texture_from_origin[1]);
-    assert_ne!(tile.texture_matrix(map, None).to_cols_array(), uniform.texture_from_origin[1]);
+    let tile = maps.tile(1, CascadeLayout::Atlas).unwrap();
+    assert_eq!(tile.receiver_matrix(map, Some(&offset)).to_cols_array(), uniform.texture_from_origin[1]);
+    assert_ne!(tile.receiver_matrix(map, None).to_cols_array(), uniform.texture_from_origin[1]);
 }
 
 /// In an atlas the matrix takes what is visible to where it is in the map's own texture, in its tile: off by the rounding
@@ -302,18 +307,18 @@ fn a_block_is_its_words() {
 fn an_atlas_is_its_maps_side_by_side() {
     let scene = Scene::from_box((-50.0, -3.0, -90.0), (50.0, 5.0, 0.0)).unwrap();
     let sun = Light::directional((0.3, 1.0, 0.2)).unwrap();
-    let cuts = Cuts::Visible { count: 8, split: Split::Blended(0.8) };
-    let slices = Slices::new(&view(1.0, 80.0), &sun, &scene, cuts, 0.1).unwrap();
+    let cuts = CascadeSplits::Visible { count: 8, split: SplitScheme::Practical(0.8) };
+    let slices = Cascades::new(&view(1.0, 80.0), &sun, &scene, cuts, 0.1).unwrap();
     let square = Settings::default().with_warp(Warp::Uniform).with_shift(Shift::None);
     let wide = square.with_map_sides(4096, 1024).unwrap();
     for settings in [square, square.with_warp(Warp::Perspective), wide] {
         let maps = slices.fit(&settings);
         for (index, map) in maps.maps() {
-            let tile = maps.tile(index, Layout::Atlas).unwrap();
-            let matrix = tile.texture_matrix(map, None);
+            let tile = maps.tile(index, CascadeLayout::Atlas).unwrap();
+            let matrix = tile.receiver_matrix(map, None);
             let (scale, offset) = tile.texture_from_map();
             let last = (tile.corner.0 / tile.size.0).max(tile.corner.1 / tile.size.1);
-            for &point in slices[index].focus.visible().vertices() {
+            for &point in slices[index].focus.receiver_volume().vertices() {
                 let place = matrix * Vec4::from((point.as_vec3(), 1.0));
                 let place = place.truncate().as_dvec3() / f64::from(place.w);
                 let exact = map.texture_from_world() * point.extend(1.0);
@@ -329,7 +334,7 @@ fn an_atlas_is_its_maps_side_by_side() {
 }
 
 #[track_caller]
-fn refused<T: core::fmt::Debug>(result: Result<T, InputError>, field: &str, problem: Problem) {
+fn refused<T: core::fmt::Debug>(result: Result<T, InputError>, field: &str, problem: InputErrorKind) {
     let error = result.expect_err("accepted");
     assert_eq!((error.field, error.problem), (field, problem));
 }
@@ -337,26 +342,29 @@ fn refused<T: core::fmt::Debug>(result: Result<T, InputError>, field: &str, prob
 #[test]
 fn what_makes_no_slices_is_refused() {
     let (view, scene) = (view(1.0, 100.0), around(100.0));
-    let new = |cuts: Cuts<'_>, overlap: f64| Slices::new(&view, &overhead(), &scene, cuts, overlap);
-    for make in [|count, split| Cuts::Visible { count, split }, |count, split| Cuts::View { count, split }] {
-        let make: fn(usize, Split) -> Cuts<'static> = make;
-        refused(new(make(0, Split::Uniform), 0.0), "count", Problem::TooSmall);
-        refused(new(make(9, Split::Uniform), 0.0), "count", Problem::TooLarge);
-        refused(new(make(2, Split::Blended(-0.1)), 0.0), "split", Problem::TooSmall);
-        refused(new(make(2, Split::Blended(1.1)), 0.0), "split", Problem::TooLarge);
-        refused(new(make(2, Split::Blended(f64::NAN)), 0.0), "split", Problem::NotFinite);
-        refused(new(make(2, Split::Uniform), -0.1), "overlap", Problem::TooSmall);
-        refused(new(make(2, Split::Uniform), 1.1), "overlap", Problem::TooLarge);
-        refused(new(make(2, Split::Uniform), f64::NAN), "overlap", Problem::NotFinite);
+    let new = |cuts: CascadeSplits<'_>, overlap: f64| Cascades::new(&view, &overhead(), &scene, cuts, overlap);
+    for make in [
+        |count, split| CascadeSplits::Visible { count, split },
+        |count, split| CascadeSplits::View { count, split },
+    ] {
+        let make: fn(usize, SplitScheme) -> CascadeSplits<'static> = make;
+        refused(new(make(0, SplitScheme::Uniform), 0.0), "count", InputErrorKind::TooSmall);
+        refused(new(make(9, SplitScheme::Uniform), 0.0), "count", InputErrorKind::TooLarge);
+        refused(new(make(2, SplitScheme::Practical(-0.1)), 0.0), "split", InputErrorKind::TooSmall);
+        refused(new(make(2, SplitScheme::Practical(1.1)), 0.0), "split", InputErrorKind::TooLarge);
+        refused(new(make(2, SplitScheme::Practical(f64::NAN)), 0.0), "split", InputErrorKind::NotFinite);
+        refused(new(make(2, SplitScheme::Uniform), -0.1), "overlap", InputErrorKind::TooSmall);
+        refused(new(make(2, SplitScheme::Uniform), 1.1), "overlap", InputErrorKind::TooLarge);
+        refused(new(make(2, SplitScheme::Uniform), f64::NAN), "overlap", InputErrorKind::NotFinite);
     }
-    refused(new(Cuts::At(&[2.0; 8]), 0.0), "cuts", Problem::TooMany);
-    refused(new(Cuts::At(&[f64::NAN]), 0.0), "cuts", Problem::NotFinite);
-    refused(new(Cuts::At(&[f64::INFINITY]), 0.0), "cuts", Problem::NotFinite);
-    refused(new(Cuts::At(&[1.0]), 0.0), "cuts", Problem::TooSmall);
-    refused(new(Cuts::At(&[100.0]), 0.0), "cuts", Problem::TooLarge);
-    refused(new(Cuts::At(&[3.0, 2.0]), 0.0), "cuts", Problem::OutOfOrder);
+    refused(new(CascadeSplits::At(&[2.0; 8]), 0.0), "cuts", InputErrorKind::TooMany);
+    refused(new(CascadeSplits::At(&[f64::NAN]), 0.0), "cuts", InputErrorKind::NotFinite);
+    refused(new(CascadeSplits::At(&[f64::INFINITY]), 0.0), "cuts", InputErrorKind::NotFinite);
+    refused(new(CascadeSplits::At(&[1.0]), 0.0), "cuts", InputErrorKind::TooSmall);
+    refused(new(CascadeSplits::At(&[100.0]), 0.0), "cuts", InputErrorKind::TooLarge);
+    refused(new(CascadeSplits::At(&[3.0, 2.0]), 0.0), "cuts", InputErrorKind::OutOfOrder);
     // One number for f32.
-    refused(new(Cuts::At(&[3.0, 3.000_000_01]), 0.0), "cuts", Problem::OutOfOrder);
+    refused(new(CascadeSplits::At(&[3.0, 3.000_000_01]), 0.0), "cuts", InputErrorKind::OutOfOrder);
 }
 
 /// The nearest near plane, the farthest far ones, and a scene as large as can be, seen from its corner along its
@@ -375,12 +383,12 @@ fn views_at_the_ends_of_what_is_accepted() {
         parallel,
     ];
     for view in views {
-        for split in [Split::Uniform, Split::Logarithmic, Split::Blended(0.5)] {
-            for cuts in [Cuts::Visible { count: 8, split }, Cuts::View { count: 8, split }] {
-                if view.far().is_infinite() && matches!(cuts, Cuts::View { .. }) {
+        for split in [SplitScheme::Uniform, SplitScheme::Logarithmic, SplitScheme::Practical(0.5)] {
+            for cuts in [CascadeSplits::Visible { count: 8, split }, CascadeSplits::View { count: 8, split }] {
+                if view.far().is_infinite() && matches!(cuts, CascadeSplits::View { .. }) {
                     continue;
                 }
-                let slices = Slices::new(&view, &overhead(), &scene, cuts, 0.5).unwrap();
+                let slices = Cascades::new(&view, &overhead(), &scene, cuts, 0.5).unwrap();
                 assert_eq!(slices.len(), 8, "{view:?} {cuts:?}");
                 let maps = slices.fit(&Settings::default());
                 assert_eq!(maps.report().maps + maps.report().nothing_casts, 8, "{view:?} {cuts:?}");

@@ -2,7 +2,10 @@
 //! uploaded. A change of any is a change that users see.
 
 use shadowfit::glam::{DVec3, Mat4};
-use shadowfit::{ClipSpace, Form, Light, Map, Origin, Scene, Settings, Shift, View, Warp, classify, fit};
+use shadowfit::{
+    ClipSpace, FocusForm, Light, Origin, Scene, Settings, ShadowMap, View, Warp, fit,
+    warp::{Shift, classify},
+};
 
 /// Eye height of a person on a lawn, looking ahead.
 fn view() -> View {
@@ -27,7 +30,7 @@ fn lights() -> [Light; 5] {
     ]
 }
 
-fn fitted(light: &Light, settings: Settings) -> Map {
+fn fitted(light: &Light, settings: Settings) -> ShadowMap {
     *fit(&view(), light, &scene(), &settings).map().expect("a map")
 }
 
@@ -53,13 +56,14 @@ fn classes_and_warps() {
         let kind = classify(&view(), &light).kind;
         let base = Settings::default().with_warp(Warp::Perspective);
         let uniform = fitted(&light, base.with_warp(Warp::Uniform));
-        text += &format!("{kind}, uniform\n{}\n\n", table(&uniform.matrix()));
-        for shift in [Shift::None, Shift::Back(Form::Paper)] {
+        text += &format!("{kind}, uniform\n{}\n\n", table(&uniform.caster_matrix()));
+        for shift in [Shift::None, Shift::Back(FocusForm::ViewHull)] {
             let map = fitted(&light, base.with_shift(shift));
             let (back, ratio) = (number(map.camera().shift as f32), number(map.warp_ratio() as f32));
             // Where H lies before the eye the two are the same.
             if shift == Shift::None || map.camera().shift > 1e-9 {
-                text += &format!("{kind}, warp ratio {ratio}, moved back {back}\n{}\n\n", table(&map.matrix()));
+                text +=
+                    &format!("{kind}, warp ratio {ratio}, moved back {back}\n{}\n\n", table(&map.caster_matrix()));
             }
         }
     }
@@ -73,9 +77,9 @@ fn other_warps() {
         let kind = classify(&view(), &light).kind;
         for warp in [Warp::LightSpace, Warp::Trapezoidal, Warp::default()] {
             let map = fitted(&light, Settings::default().with_warp(warp));
-            let refused = map.refusal().map_or_else(String::new, |why| format!(", refused: {why}"));
+            let refused = map.fallback().map_or_else(String::new, |why| format!(", refused: {why}"));
             let ratio = number(map.warp_ratio() as f32);
-            text += &format!("{kind}, {warp:?}, warp ratio {ratio}{refused}\n{}\n\n", table(&map.matrix()));
+            text += &format!("{kind}, {warp:?}, warp ratio {ratio}{refused}\n{}\n\n", table(&map.caster_matrix()));
         }
     }
     insta::assert_snapshot!(text);
@@ -85,14 +89,14 @@ fn other_warps() {
 fn conventions() {
     let sun = lights()[4];
     let base = Settings::default().with_warp(Warp::Perspective).with_shift(Shift::None);
-    let matrix = |clip| fitted(&sun, base.with_clip(clip)).matrix();
+    let matrix = |clip| fitted(&sun, base.with_clip(clip)).caster_matrix();
     let tables = [
         ("reversed depth", matrix(ClipSpace::WGPU.reversed())),
         ("Vulkan", matrix(ClipSpace::VULKAN)),
         ("OpenGL", matrix(ClipSpace::OPENGL)),
-        ("texture", fitted(&sun, base).texture_matrix()),
-        ("OpenGL texture", fitted(&sun, base.with_clip(ClipSpace::OPENGL)).texture_matrix()),
-        ("relative to the eye", fitted(&sun, base.with_origin(Origin::Eye)).matrix()),
+        ("texture", fitted(&sun, base).receiver_matrix()),
+        ("OpenGL texture", fitted(&sun, base.with_clip(ClipSpace::OPENGL)).receiver_matrix()),
+        ("relative to the eye", fitted(&sun, base.with_origin(Origin::Eye)).caster_matrix()),
     ];
     let text: String = tables.iter().map(|(name, matrix)| format!("{name}\n{}\n\n", table(matrix))).collect();
     insta::assert_snapshot!(text);

@@ -5,7 +5,10 @@
 
 use glam::{DMat3, DMat4, DVec3, Vec3};
 use proptest::prelude::*;
-use shadowfit::{MAX_COORDINATE, Problem, Solidity, SolidityReport};
+use shadowfit::{
+    input::{InputErrorKind, MAX_COORDINATE},
+    mesh::{Solidity, SolidityReport},
+};
 
 mod arbitrary;
 
@@ -49,7 +52,7 @@ fn grid(side: i32, height: impl Fn(f64, f64) -> f64) -> Triangles {
 fn a_box_is_solid_whichever_corners_its_faces_share() {
     let found = report(&cuboid(DVec3::new(3.0, -1.0, 7.0), 1.0));
     let solid = SolidityReport {
-        solidity: Solidity::Solid,
+        solidity: Solidity::Watertight,
         parts: 1,
         reversed_parts: 0,
         boundary_edges: 0,
@@ -64,7 +67,7 @@ fn a_box_is_solid_whichever_corners_its_faces_share() {
 
 #[test]
 fn a_box_with_its_fronts_inwards_is_inside_out() {
-    assert_eq!(report(&turned_round(&cuboid(DVec3::ONE, 2.0))).solidity, Solidity::InsideOut);
+    assert_eq!(report(&turned_round(&cuboid(DVec3::ONE, 2.0))).solidity, Solidity::Inverted);
 }
 
 #[test]
@@ -88,8 +91,8 @@ fn a_cavity_belongs_to_its_solid() {
     let mut hollow = cuboid(DVec3::ZERO, 2.0);
     hollow.extend(turned_round(&cuboid(DVec3::ZERO, 1.0)));
     let found = report(&hollow);
-    assert_eq!((found.solidity, found.parts, found.reversed_parts), (Solidity::Solid, 2, 0));
-    assert_eq!(report(&turned_round(&hollow)).solidity, Solidity::InsideOut);
+    assert_eq!((found.solidity, found.parts, found.reversed_parts), (Solidity::Watertight, 2, 0));
+    assert_eq!(report(&turned_round(&hollow)).solidity, Solidity::Inverted);
 }
 
 #[test]
@@ -106,7 +109,7 @@ fn boxes_that_touch_along_an_edge_or_a_face_are_solid() {
         let mut pair = cuboid(DVec3::ZERO, 1.0);
         pair.extend(cuboid(offset, 1.0));
         let found = report(&pair);
-        assert_eq!((found.solidity, found.parts), (Solidity::Solid, 1), "{offset}");
+        assert_eq!((found.solidity, found.parts), (Solidity::Watertight, 1), "{offset}");
         assert!(found.crowded_edges > 0 && found.unbalanced_edges == 0, "{found:?}");
     }
 }
@@ -126,9 +129,9 @@ fn a_triangle_without_area_closes_a_t_junction() {
     assert_eq!(report(&cracked).solidity, Solidity::Open);
     cracked.push([corners[1], corners[2], middle]);
     let found = report(&cracked);
-    assert_eq!((found.solidity, found.without_area), (Solidity::Solid, 1));
+    assert_eq!((found.solidity, found.without_area), (Solidity::Watertight, 1));
     cracked.push([corners[1], corners[1], corners[3]]);
-    assert_eq!((report(&cracked).solidity, report(&cracked).without_area), (Solidity::Solid, 2));
+    assert_eq!((report(&cracked).solidity, report(&cracked).without_area), (Solidity::Watertight, 2));
 }
 
 #[test]
@@ -191,14 +194,14 @@ fn zero_and_minus_zero_are_one_place() {
     for triangle in [3, 7] {
         triangles[triangle] = triangles[triangle].map(|corner| corner.map(|x| if x == 0.0 { -0.0 } else { x }));
     }
-    assert_eq!(report(&triangles).solidity, Solidity::Solid);
+    assert_eq!(report(&triangles).solidity, Solidity::Watertight);
 }
 
 #[test]
 fn positions_may_be_single_precision_and_others_may_lie_beside() {
     let corners = [Vec3::NAN, Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::INFINITY];
     let found = Solidity::of(&corners, &[[1, 3, 2], [1, 2, 4], [1, 4, 3], [2, 3, 4]]);
-    assert_eq!(found.map(|report| report.solidity), Ok(Solidity::Solid));
+    assert_eq!(found.map(|report| report.solidity), Ok(Solidity::Watertight));
 }
 
 #[test]
@@ -208,12 +211,12 @@ fn what_is_no_mesh_is_refused() {
         Solidity::of(positions, triangles).map_err(|error| (error.field, error.problem))
     };
     let square = [DVec3::ZERO, DVec3::X, DVec3::Y];
-    assert_eq!(solidity_of(&square, &[]), refused("triangles", Problem::Empty));
-    assert_eq!(solidity_of(&square, &[[0, 1, 3]]), refused("triangles", Problem::OutOfRange));
+    assert_eq!(solidity_of(&square, &[]), refused("triangles", InputErrorKind::Empty));
+    assert_eq!(solidity_of(&square, &[[0, 1, 3]]), refused("triangles", InputErrorKind::OutOfRange));
     let broken = [DVec3::ZERO, DVec3::X, DVec3::new(0.0, f64::NAN, 0.0)];
-    assert_eq!(solidity_of(&broken, &[[0, 1, 2]]), refused("positions", Problem::NotFinite));
+    assert_eq!(solidity_of(&broken, &[[0, 1, 2]]), refused("positions", InputErrorKind::NotFinite));
     let far = [DVec3::ZERO, DVec3::X, DVec3::Y * 2.0 * MAX_COORDINATE];
-    assert_eq!(solidity_of(&far, &[[0, 1, 2]]), refused("positions", Problem::TooLarge));
+    assert_eq!(solidity_of(&far, &[[0, 1, 2]]), refused("positions", InputErrorKind::TooLarge));
 }
 
 /// A ball whose corners are pushed about, so that it is no longer convex; its radius is at least a half.
@@ -251,7 +254,7 @@ fn solids_stay_what_they_are_however_they_are_stored() {
             .collect();
         triangles.sort_by(|a, b| a[0].x.total_cmp(&b[0].x));
         let found = report(&triangles);
-        let expected = if mirrored { Solidity::InsideOut } else { Solidity::Solid };
+        let expected = if mirrored { Solidity::Inverted } else { Solidity::Watertight };
         assert_eq!((found.solidity, found.parts), (expected, 1), "{found:?}");
 
         let gone = (numbers.part() * triangles.len() as f64) as usize;

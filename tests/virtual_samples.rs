@@ -11,8 +11,9 @@ use claims::virtual_samples::{
 use glam::{DVec2, DVec3, Vec3};
 use proptest::prelude::*;
 use shadowfit::{
-    ClipSpace, ComparisonTolerance, DepthFormat, LEAST_INCIDENCE, Light, Map, Rule, SUBTEXEL, Scene, Settings,
-    TangentPlane, View, Warp, fit,
+    ClipSpace, DepthFormat, Light, Scene, Settings, ShadowMap, View, Warp,
+    depth::{ComparisonTolerance, Decision, MIN_SIN_INCIDENCE, RASTER_GRID, TangentPlane},
+    fit,
 };
 
 #[test]
@@ -56,7 +57,7 @@ fn slopes_at_the_point_err_less_than_the_inverse() {
                 let place = (plane.place() + 1.0 / 1024.0).as_vec2();
                 let expected = plane.depth_at(place.as_dvec2());
                 let normal = normal.as_vec3();
-                let (projected, slopes) = in_a_shader(map.texture_matrix(), position, normal);
+                let (projected, slopes) = in_a_shader(map.receiver_matrix(), position, normal);
                 let found = projected.z + slopes.dot(place - projected.truncate());
                 let there = inverse * normal.extend(-normal.dot(position));
                 let inverted = -(there.x * place.x + there.y * place.y + there.w) / there.z;
@@ -72,7 +73,7 @@ fn slopes_at_the_point_err_less_than_the_inverse() {
 }
 
 /// Towards the light of a map.
-fn map_light(map: &Map, point: DVec3) -> DVec3 {
+fn map_light(map: &ShadowMap, point: DVec3) -> DVec3 {
     let texture = map.texture_from_world();
     let w = texture.row(3);
     let gradient = |i: usize| (texture.row(i) - projected(texture, point)[i] * w).truncate();
@@ -80,7 +81,7 @@ fn map_light(map: &Map, point: DVec3) -> DVec3 {
 }
 
 /// The ground from a person's height, under a light, as a map.
-fn ground(light: &Light, clip: ClipSpace, warp: Warp) -> Map {
+fn ground(light: &Light, clip: ClipSpace, warp: Warp) -> ShadowMap {
     let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.3, -1.0), DVec3::Y, 1.0, 1.6, 0.1, 60.0).expect("sound");
     let scene = Scene::from_box((-30.0, 0.0, -30.0), (30.0, 5.0, 30.0)).expect("sound");
     let settings = Settings::new(256, 1080).expect("sound").with_border(4).expect("sound");
@@ -88,7 +89,7 @@ fn ground(light: &Light, clip: ClipSpace, warp: Warp) -> Map {
     *fit(&view, light, &scene, &settings).map().expect("one map does")
 }
 
-fn grounds() -> Vec<Map> {
+fn grounds() -> Vec<ShadowMap> {
     let lights = [Light::directional((0.4, 0.3, 0.5)), Light::point((3.0, 4.0, -9.0), 0.1, f64::INFINITY)];
     let mut maps = Vec::new();
     for light in lights.map(|light| light.expect("sound")) {
@@ -100,7 +101,7 @@ fn grounds() -> Vec<Map> {
 }
 
 /// Points of the ground in view, and the plane of each.
-fn on_ground(map: &Map) -> Vec<TangentPlane> {
+fn on_ground(map: &ShadowMap) -> Vec<TangentPlane> {
     let points =
         (-80..=80).flat_map(|x| (-100..=-10).map(move |z| DVec3::new(f64::from(x), 0.0, f64::from(z)) * 0.07));
     let planes = points.filter_map(|point| TangentPlane::new(map, point, DVec3::Y));
@@ -109,13 +110,13 @@ fn on_ground(map: &Map) -> Vec<TangentPlane> {
 
 /// The depth that the map holds for a plane, at the centre of a texel, in steps of a format and off by the rasteriser's
 /// half of a step of its grid in the worst direction.
-fn stored_plane(map: &Map, plane: TangentPlane, format: Option<DepthFormat>) -> impl Fn(u32, u32) -> f64 {
+fn stored_plane(map: &ShadowMap, plane: TangentPlane, format: Option<DepthFormat>) -> impl Fn(u32, u32) -> f64 {
     let size = f64::from(map.settings().map_size());
     let reversed = map.settings().clip().depth.is_reversed();
     move |x, y| {
         let exact = plane.depth_at((DVec2::new(f64::from(x), f64::from(y)) + 0.5) / size);
         let Some(format) = format else { return exact };
-        let shift = 0.5 * SUBTEXEL / size * plane.slopes().abs().element_sum();
+        let shift = 0.5 * RASTER_GRID / size * plane.slopes().abs().element_sum();
         let nearer = if reversed { exact + shift } else { exact - shift };
         let step = format.step(1.0);
         (nearer / step).round() * step
@@ -139,7 +140,7 @@ fn a_plane_never_shadows_itself_without_any_bias() {
                 let tests = [plane.blended(&tolerance(1.0), &stored)].into_iter().chain([1, 2, 3, 5, 8].map(mean));
                 for sampled in tests {
                     assert!((sampled.share - 1.0).abs() < 1e-12, "{plane:?}: {sampled:?} in {format:?}");
-                    assert_ne!(sampled.rule, Rule::NonePass);
+                    assert_ne!(sampled.rule, Decision::NonePass);
                 }
             }
         }
@@ -155,7 +156,7 @@ fn a_thin_sheet_passes_by_at_most() {
     let sheet = TangentPlane::new(map, point, DVec3::new(0.4, 0.3, 0.5)).expect("in the map");
     let none = ComparisonTolerance::constant(0.0);
     for sampled in [sheet.blended(&none, |_, _| sheet.depth()), sheet.mean(3, &none, |_, _| sheet.depth())] {
-        assert_eq!((sampled.share, sampled.rule), (1.0, Rule::AllPass), "{:?}", sheet.slopes());
+        assert_eq!((sampled.share, sampled.rule), (1.0, Decision::AllPass), "{:?}", sheet.slopes());
     }
 }
 
@@ -171,7 +172,7 @@ fn what_lies_before_the_plane_at_every_texel_shadows_it() {
             let stored = |x, y| own(x, y) - before;
             for sampled in [plane.blended(&tolerance, stored), plane.mean(3, &tolerance, stored)] {
                 assert_eq!(sampled.share, 0.0, "{plane:?}");
-                assert_ne!(sampled.rule, Rule::AllPass);
+                assert_ne!(sampled.rule, Decision::AllPass);
             }
         }
     }
@@ -211,7 +212,7 @@ fn a_plane_from_its_edge_has_a_slope_with_an_end() {
             assert!(slopes.is_finite(), "{slopes}");
             assert!(
                 slopes.length()
-                    <= 1.01 / LEAST_INCIDENCE * gradient(2).length()
+                    <= 1.01 / MIN_SIN_INCIDENCE * gradient(2).length()
                         / gradient(0).length().min(gradient(1).length()),
                 "{slopes}"
             );

@@ -1,6 +1,6 @@
 //! The cases that both benchmarks measure: one view of a town and three lights.
 
-use shadowfit::{Effort, Form, InputError, Light, Scene, Settings, Shift, View, Warp};
+use shadowfit::{Effort, FocusForm, InputError, Light, Scene, Settings, View, Warp, warp::Shift};
 
 /// A street seen from a standing person's eyes.
 pub(crate) fn view() -> Result<View, InputError> {
@@ -23,7 +23,7 @@ pub(crate) fn lights() -> Result<[(&'static str, Light); 3], InputError> {
 
 /// The maps that are fitted.
 pub(crate) fn settings() -> [(&'static str, Settings); 10] {
-    let settings = Settings::default().with_warp(Warp::Perspective).with_shift(Shift::Back(Form::Paper));
+    let settings = Settings::default().with_warp(Warp::Perspective).with_shift(Shift::Back(FocusForm::ViewHull));
     [
         ("uniform", settings.with_warp(Warp::Uniform)),
         ("psm", settings.with_shift(Shift::None)),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::RangedU64ValueParser;
 use clap::{Parser, Subcommand, ValueEnum};
 use shadowfit::glam::DVec3;
-use shadowfit::{ClipSpace, DepthFormat, Slices};
+use shadowfit::{ClipSpace, DepthFormat, cascades::Cascades};
 
 use crate::ablation::AblationArgs;
 use crate::cut::Cutting;
@@ -128,7 +128,7 @@ pub struct MapArgs {
 
     /// Cut the view into so many slices in depth, each with a map of its own; may be given several times. Of stable maps
     /// between the camera's planes, of others between the depths of what may be seen
-    #[arg(long, value_name = "COUNT", value_parser = RangedU64ValueParser::<u32>::new().range(1..=Slices::MAX as u64))]
+    #[arg(long, value_name = "COUNT", value_parser = RangedU64ValueParser::<u32>::new().range(1..=Cascades::MAX as u64))]
     pub slices: Vec<u32>,
 
     /// How depths are shared out among slices: uniform, log, or blended:PART with the logarithmic part
@@ -390,7 +390,7 @@ mod tests {
         assert_eq!(map.techniques, [Technique::Psm, Technique::Uniform]);
         assert_eq!(map.sizes, [256, 512]);
         assert_eq!((map.format, map.faces), (FormatArg::Unorm16, Faces::Back));
-        assert_eq!(map.filter, Filter::PercentageCloser(5));
+        assert_eq!(map.filter, Filter::Pcf(5));
         assert_eq!(ClipSpace::from(map.clip), ClipSpace::OPENGL.reversed());
     }
 

@@ -98,7 +98,7 @@ pub fn check(args: &CheckArgs) -> Result<()> {
             bar.inc(1);
         }
         pictures.finish()?;
-        let class = shadowfit::classify(&view, &light.light).kind;
+        let class = shadowfit::warp::classify(&view, &light.light).kind;
         let [compared, shadowed] = [light.truth.compared(), light.truth.shadowed()];
         let title = format!("\nlight {}: {spec}, {class}; {compared} pixels compared, {shadowed} in shadow", i + 1);
         let near = near_words(&stage, &spec);

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result};
 use clap::ValueEnum;
 use shadowfit::glam::{DVec3, Vec3};
-use shadowfit::{Paraboloid, Refiner};
+use shadowfit::{mesh::Tessellator, omni::Paraboloid};
 
 use crate::gpu::{Geometry, Gpu};
 use crate::scene::Mesh;
@@ -111,10 +111,10 @@ impl Pieces {
 }
 
 fn finely(mesh: &Mesh, kept: &[u32], map: &Paraboloid) -> Result<Pieces> {
-    let refiner = Refiner::new(map.position(), map.light().near(), map.largest_edge(BENT));
+    let refiner = Tessellator::new(map.position(), map.light().near(), map.largest_edge(BENT));
     let refiner = refiner.context("casters cannot be cut for so small a map")?.with_limit(MOST);
     let triangles: Vec<[u32; 3]> = kept.iter().map(|&triangle| mesh.triangles[triangle as usize]).collect();
-    let refined = refiner.refine(&mesh.vertices, &triangles).context("the casters cannot be cut")?;
+    let refined = refiner.tessellate(&mesh.vertices, &triangles).context("the casters cannot be cut")?;
     let added = refined.added.iter().map(|added| added.position);
     let vertices = mesh.vertices.iter().copied().chain(added).collect();
     Ok(Pieces { vertices, triangles: refined.triangles, sources: refined.sources })

@@ -80,7 +80,7 @@ fn draw_light(
     let mut lenses = Vec::new();
     for fitted in &fit.maps {
         if let Some(map) = fitted.outcome.map() {
-            lenses.push((fitted.technique.to_string(), Lens::new(map.shadow_from_world())?));
+            lenses.push((fitted.technique.to_string(), Lens::new(map.clip_from_world())?));
         }
     }
     if !lenses.is_empty() {

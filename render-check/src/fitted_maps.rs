@@ -6,7 +6,11 @@ use std::sync::Arc;
 use anyhow::{Context, Result, ensure};
 use serde::Serialize;
 use shadowfit::glam::DVec3;
-use shadowfit::{Body, CubeFace, Empty, Focus, Form, Light, Map, Outcome, Paraboloids, Plane, Settings};
+use shadowfit::{
+    Empty, Focus, FocusForm, Light, Outcome, Settings, ShadowMap,
+    focus::{ConvexBody, Plane},
+    omni::{CubeFace, Paraboloids},
+};
 
 use crate::cut::{Cut, Cutting};
 use crate::fitting::{NoMap, map_or_reason};
@@ -36,26 +40,26 @@ impl FittedMap {
         stage: &Stage<'_>,
         focus: &Focus<'_>,
         options: &Options,
-        before: Option<&Map>,
+        before: Option<&ShadowMap>,
     ) -> Result<Result<Self, NoMap>> {
         let map = match map_or_reason(fitted(focus, before, &options.settings(stage)?)) {
             Ok(map) => Layout::Frustum(map),
             Err(none) => return Ok(Err(none)),
         };
-        let objects = casters(stage, &focus.body(Form::Tight), |_| true);
+        let objects = casters(stage, &focus.caster_volume(FocusForm::ReceiverHull), |_| true);
         Ok(Ok(Self { map, pass: options.pass(&map)?, objects }))
     }
 }
 
 /// Fits a frustum, after that of the frame before, if there is one.
-fn fitted(focus: &Focus<'_>, before: Option<&Map>, settings: &Settings) -> Outcome {
-    before.map_or_else(|| focus.fit(settings), |before| focus.fit_from(before, settings))
+fn fitted(focus: &Focus<'_>, before: Option<&ShadowMap>, settings: &Settings) -> Outcome {
+    before.map_or_else(|| focus.fit(settings), |before| focus.fit_warm(before, settings))
 }
 
 /// The objects that meet a body and are no others.
-fn casters(stage: &Stage<'_>, body: &Body, is_other: impl Fn(&Object) -> bool) -> Vec<usize> {
+fn casters(stage: &Stage<'_>, body: &ConvexBody, is_other: impl Fn(&Object) -> bool) -> Vec<usize> {
     let objects = stage.tracer.mesh().objects.iter().enumerate();
-    let meets = |object: &Object| body.meets_box(object.min, object.max) && is_other(object);
+    let meets = |object: &Object| body.intersects_aabb(object.min, object.max) && is_other(object);
     objects.filter(|(_, object)| meets(object)).map(|(index, _)| index).collect()
 }
 
@@ -125,14 +129,14 @@ impl FittedMaps {
         }
         let (split, lights) = parts(stage, light, options)?;
         let mut maps = Vec::new();
-        let mut reason = NoMap::Empty(Empty::NothingVisible);
+        let mut reason = NoMap::Empty(Empty::NoReceivers);
         for (part, focus) in foci(stage, &split, &lights).iter().enumerate() {
             match FittedMap::new(stage, focus, options, before.and_then(|before| before.frustum(part)))? {
                 Ok(map) => maps.push(Some(map)),
                 Err(none @ NoMap::Surrounded(_)) => return Ok(Err(none)),
                 Err(none) => {
                     // Where one part has something to shade, nothing casts on it is what the light as a whole says.
-                    if none == NoMap::Empty(Empty::NothingCasts) {
+                    if none == NoMap::Empty(Empty::NoCasters) {
                         reason = none;
                     }
                     maps.push(None);
@@ -154,7 +158,7 @@ impl FittedMaps {
             Paraboloids::Two([map, _]) => Split::halves(map.position(), map.axis()),
             Paraboloids::One(_) | Paraboloids::Directional => Split::whole(),
         };
-        let body = focus.body(Form::Tight);
+        let body = focus.caster_volume(FocusForm::ReceiverHull);
         let (min, max) = stage.tracer.bounds();
         let mut maps = Vec::new();
         for map in fitted.maps() {
@@ -196,17 +200,17 @@ impl FittedMaps {
 
     /// The matrix's map of a part of the light, if it has one.
     #[must_use]
-    pub fn frustum(&self, part: usize) -> Option<&Map> {
+    pub fn frustum(&self, part: usize) -> Option<&ShadowMap> {
         match &self.maps.get(part)?.as_ref()?.map {
             Layout::Frustum(map) => Some(map),
             Layout::Paraboloid(_) => None,
         }
     }
 
-    /// Whether any of the maps was found elsewhere than at the one of the frame before, see [`Map::switched`].
+    /// Whether any of the maps was found elsewhere than at the one of the frame before, see [`ShadowMap::jumped`].
     #[must_use]
-    pub fn switched(&self) -> bool {
-        (0..self.maps.len()).filter_map(|part| self.frustum(part)).any(Map::switched)
+    pub fn jumped(&self) -> bool {
+        (0..self.maps.len()).filter_map(|part| self.frustum(part)).any(ShadowMap::jumped)
     }
 
     /// What the map of each part was fitted to; of paraboloids all that both were.

@@ -6,8 +6,10 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 use shadowfit::{
-    Body, Empty, Focus, Form, Light, LightClass, Map, Outcome, Report, Scene, Settings, Surrounded, View, classify,
-    fit,
+    Empty, Focus, FocusForm, Light, Outcome, Scene, Settings, ShadowMap, Surrounded, View, fit,
+    focus::ConvexBody,
+    map::Report,
+    warp::{LightClass, classify},
 };
 
 use crate::light::LightSpec;
@@ -48,9 +50,9 @@ pub struct LightFit {
     /// What the camera's perspective makes of it.
     pub class: LightClass,
     /// The focus body H as the paper has it.
-    pub body: Body,
+    pub body: ConvexBody,
     /// The tight form of H.
-    pub tight_body: Body,
+    pub tight_body: ConvexBody,
     /// The maps that are compared, in their order.
     pub maps: Vec<Fitted>,
     /// What the worst aliasing of a map of so many texels would be at least, however they were spread.
@@ -80,7 +82,7 @@ impl fmt::Display for NoMap {
 /// # Errors
 ///
 /// Where there is none.
-pub fn map_or_reason(outcome: Outcome) -> Result<Map, NoMap> {
+pub fn map_or_reason(outcome: Outcome) -> Result<ShadowMap, NoMap> {
     match outcome {
         Outcome::Map(map) => Ok(map),
         Outcome::Empty(empty) => Err(NoMap::Empty(empty)),
@@ -140,10 +142,10 @@ pub fn fit_light(
     Ok(LightFit {
         spec,
         class: classify(view, &light),
-        body: focus.body(Form::Paper),
-        tight_body: focus.body(Form::Tight),
+        body: focus.caster_volume(FocusForm::ViewHull),
+        tight_body: focus.caster_volume(FocusForm::ReceiverHull),
         maps: techniques.iter().map(fitted).collect(),
-        limit: focus.limit(settings),
+        limit: focus.aliasing_lower_bound(settings),
     })
 }
 
@@ -193,7 +195,7 @@ mod tests {
             for fitted in &light_fit.maps {
                 assert!(fitted.median_time > Duration::ZERO);
                 let map = fitted.outcome.map().expect("one frustum does");
-                let lens = Lens::new(map.shadow_from_world()).expect("invertible");
+                let lens = Lens::new(map.clip_from_world()).expect("invertible");
                 for &point in &seen {
                     let [x, y, z] = lens.project(point).to_array();
                     let inside = x.abs() <= 1.0 && y.abs() <= 1.0 && (0.0..=1.0).contains(&z);

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use comfy_table::Table;
 use shadowfit::glam::DVec3;
-use shadowfit::{Body, Report};
+use shadowfit::{focus::ConvexBody, map::Report};
 
 use crate::fitting::{Fitted, LightFit};
 use crate::table::{self, number};
@@ -55,11 +55,11 @@ fn body(fit: &LightFit, (min, max): (DVec3, DVec3)) -> String {
         return "empty".into();
     }
     let extent = max - min;
-    let share = |body: &Body| match extent.x * extent.y * extent.z {
+    let share = |body: &ConvexBody| match extent.x * extent.y * extent.z {
         scene if scene > 0.0 => format!("{:.1} %", 100.0 * body.volume() / scene),
         _ => "flat".into(),
     };
-    let counts = |body: &Body| format!("{} v, {} f", body.vertices().len(), body.faces().count());
+    let counts = |body: &ConvexBody| format!("{} v, {} f", body.vertices().len(), body.faces().count());
     format!(
         "{}, {} of S\ntight: {}, {}",
         counts(&fit.body),

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use shadowfit::glam::DVec3;
-use shadowfit::{DepthBias, DepthFormat, Map, Paraboloid, Settings};
+use shadowfit::{DepthFormat, Settings, ShadowMap, depth::DepthBias, omni::Paraboloid};
 
 use crate::verdict::{self, Frustum, Projection};
 
@@ -11,7 +11,7 @@ use crate::verdict::{self, Frustum, Projection};
 #[expect(clippy::large_enum_variant, reason = "a light has six at most")]
 pub enum Layout {
     /// A matrix.
-    Frustum(Map),
+    Frustum(ShadowMap),
     /// Half of everything around a light.
     Paraboloid(Paraboloid),
 }
@@ -26,7 +26,7 @@ impl Layout {
         }
     }
 
-    /// How much larger a texel is than a pixel at a point, see [`Map::aliasing`]; `None` where the map has no place for it.
+    /// How much larger a texel is than a pixel at a point, see [`ShadowMap::aliasing`]; `None` where the map has no place for it.
     #[must_use]
     pub fn aliasing(&self, point: DVec3) -> Option<f64> {
         match self {

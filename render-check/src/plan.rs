@@ -5,7 +5,10 @@ use std::time::Duration;
 use anyhow::{Context, Result, ensure};
 use clap::builder::RangedU64ValueParser;
 use serde::Serialize;
-use shadowfit::{Budget, Light, LightPlan, Objects, Origin, Plan, Settings, plan as make_plan};
+use shadowfit::{
+    Light, Origin, Settings,
+    plan::{Budget, LightPlan, Objects, Plan, plan as make_plan},
+};
 
 use crate::args::{FormatArg, ViewArgs};
 use crate::fitted_maps::FittedMaps;
@@ -104,9 +107,9 @@ impl BudgetArgs {
 fn parse_filter(text: &str) -> Result<shadowfit::Filter, String> {
     match text.parse()? {
         Filter::Nearest => Ok(shadowfit::Filter::Nearest),
-        Filter::Hardware => Ok(shadowfit::Filter::Hardware),
+        Filter::Hardware2x2 => Ok(shadowfit::Filter::Hardware2x2),
         // The harness reads at most 15 of them.
-        Filter::PercentageCloser(taps) => Ok(shadowfit::Filter::PercentageCloser(taps as u8)),
+        Filter::Pcf(taps) => Ok(shadowfit::Filter::Pcf(taps as u8)),
         Filter::Virtual(_) => {
             Err("the plan says where virtual samples are needed: write nearest, hardware or pcfN".into())
         }

@@ -2,7 +2,10 @@
 
 use anyhow::{Context, Result};
 use shadowfit::{
-    Aabb, CubeFace, DepthFormat, DepthTest, Kind, Light, LightPlan, Object, Objects, Plan, Projection,
+    Aabb, DepthFormat, Light,
+    depth::DepthTest,
+    omni::CubeFace,
+    plan::{Kind, LightPlan, Object, Objects, Plan, Projection},
 };
 
 use crate::cut::Cutting;
@@ -61,10 +64,10 @@ pub fn filter(filter: shadowfit::Filter, virtual_samples: bool) -> Filter {
     match (filter, virtual_samples) {
         (Planned::Nearest, false) => Filter::Nearest,
         (Planned::Nearest, true) => Filter::Virtual(1),
-        (Planned::Hardware, false) => Filter::Hardware,
-        (Planned::Hardware, true) => Filter::Virtual(2),
-        (Planned::PercentageCloser(taps), false) => Filter::PercentageCloser(taps.max(1).into()),
-        (Planned::PercentageCloser(taps), true) => Filter::Virtual(taps.max(1).into()),
+        (Planned::Hardware2x2, false) => Filter::Hardware2x2,
+        (Planned::Hardware2x2, true) => Filter::Virtual(2),
+        (Planned::Pcf(taps), false) => Filter::Pcf(taps.max(1).into()),
+        (Planned::Pcf(taps), true) => Filter::Virtual(taps.max(1).into()),
     }
 }
 
@@ -86,7 +89,7 @@ pub fn options(of_light: &LightPlan, format: DepthFormat, points: Points, frames
 
 /// The technique that comes nearest to a plan.
 fn technique(of_light: &LightPlan) -> Technique {
-    let of_pass = |pass: &shadowfit::Pass| match pass.projection() {
+    let of_pass = |pass: &shadowfit::plan::Pass| match pass.projection() {
         Projection::Frustum(map) => Technique::of(map.settings()),
         // Each face has the warp that is the better for it.
         Projection::Face(_, map) => match Technique::of(map.settings()) {
@@ -101,7 +104,7 @@ fn technique(of_light: &LightPlan) -> Technique {
 }
 
 /// How a pass of a plan is drawn: with its bias, and as `options` say besides.
-fn drawn(pass: &shadowfit::Pass, options: &Options) -> MapPass {
+fn drawn(pass: &shadowfit::plan::Pass, options: &Options) -> MapPass {
     let Options { format, faces, points, .. } = *options;
     let none = MapPass { format, faces, bias: Bias::NONE, receiver: 0.0, relative: 0.0, points };
     pass.bias().map_or(none, |bias| MapPass {

@@ -6,7 +6,7 @@ use shadowfit::{Focus, Light, Settings};
 use crate::fitted_maps::FittedMaps;
 use crate::stage::Stage;
 
-/// How much larger a texel is than a pixel, see [`shadowfit::Map::aliasing`], at worst over all that may be visible.
+/// How much larger a texel is than a pixel, see [`shadowfit::ShadowMap::aliasing`], at worst over all that may be visible.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Prediction {
     /// What it is somewhere, the largest over all maps; nothing for paraboloids.
@@ -24,7 +24,7 @@ impl Prediction {
         let foci = fitted.foci(stage);
         let worst = foci.iter().enumerate().filter_map(|(part, focus)| {
             let worst = fitted.frustum(part)?.aliasing_over(focus)?;
-            Some((worst.worst, worst.at_most))
+            Some((worst.worst, worst.upper_bound))
         });
         let worst = worst.reduce(|one, other| (one.0.max(other.0), one.1.max(other.1)));
         let settings = fitted.maps.iter().flatten().next().map(|map| *map.map.settings());
@@ -40,5 +40,5 @@ impl Prediction {
 /// The limit for all of a light with the texels of so many maps: it goes with one over the root of their number.
 fn limit(stage: &Stage<'_>, light: &Light, settings: &Settings, maps: usize) -> f64 {
     let focus = Focus::new(&stage.fitted_view, light, &stage.bounds);
-    focus.limit(settings) / (maps as f64).sqrt()
+    focus.aliasing_lower_bound(settings) / (maps as f64).sqrt()
 }

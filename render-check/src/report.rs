@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use serde::Serialize;
 use shadowfit::glam::DVec3;
-use shadowfit::{Map, View};
+use shadowfit::{ShadowMap, View};
 
 use crate::args::ClipArg;
 use crate::fitted_maps::{Drawn, FittedMap};
@@ -115,7 +115,7 @@ pub struct MapReport {
     pub depths: Option<[f64; 2]>,
     /// How far the warp's camera moved back, in world units; nothing for a paraboloid.
     pub shift: Option<f64>,
-    /// How much of the warp is left out, see [`shadowfit::Map::weakening`]; nothing for a paraboloid.
+    /// How much of the warp is left out, see [`shadowfit::ShadowMap::weakening`]; nothing for a paraboloid.
     pub weakening: Option<f64>,
     /// Why it has no warp although one was asked for.
     pub refusal: Option<String>,
@@ -133,8 +133,8 @@ impl MapReport {
             axis: axis.to_array(),
             depths,
             shift: map.map(|map| map.camera().shift),
-            weakening: map.map(Map::weakening),
-            refusal: map.and_then(Map::refusal).map(|refusal| refusal.to_string()),
+            weakening: map.map(ShadowMap::weakening),
+            refusal: map.and_then(ShadowMap::fallback).map(|refusal| refusal.to_string()),
             pass: fitted.pass,
         }
     }
@@ -179,7 +179,7 @@ impl RunReport {
         };
         Self {
             light: light.spec.to_string(),
-            class: shadowfit::classify(view, &light.light).kind.to_string(),
+            class: shadowfit::warp::classify(view, &light.light).kind.to_string(),
             technique: options.technique,
             map_size: options.map_size,
             slicing: options.slicing,

@@ -4,12 +4,15 @@ use std::fmt;
 use std::str::FromStr;
 
 use anyhow::{Context, Result};
-use shadowfit::{Cuts, Light, Scene, Slices, View};
+use shadowfit::{
+    Light, Scene, View,
+    cascades::{CascadeSplits, Cascades},
+};
 
 /// How a view is cut into slices, each with a map of its own.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Slicing {
-    /// How many slices, 1 to [`Slices::MAX`].
+    /// How many slices, 1 to [`Cascades::MAX`].
     pub count: usize,
     /// How depths are shared out among them.
     pub split: SplitArg,
@@ -17,12 +20,12 @@ pub struct Slicing {
 
 /// How depths are shared out among slices, as a word.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SplitArg(pub shadowfit::Split);
+pub struct SplitArg(pub shadowfit::cascades::SplitScheme);
 
 impl Default for SplitArg {
     /// Cuts in one ratio are the best there are for what is seen, as they begin where something is seen.
     fn default() -> Self {
-        Self(shadowfit::Split::Logarithmic)
+        Self(shadowfit::cascades::SplitScheme::Logarithmic)
     }
 }
 
@@ -30,9 +33,9 @@ impl Default for SplitArg {
 impl fmt::Display for SplitArg {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
-            shadowfit::Split::Uniform => f.write_str("uniform"),
-            shadowfit::Split::Logarithmic => f.write_str("log"),
-            shadowfit::Split::Blended(part) => write!(f, "blended:{part}"),
+            shadowfit::cascades::SplitScheme::Uniform => f.write_str("uniform"),
+            shadowfit::cascades::SplitScheme::Logarithmic => f.write_str("log"),
+            shadowfit::cascades::SplitScheme::Practical(part) => write!(f, "blended:{part}"),
         }
     }
 }
@@ -43,9 +46,9 @@ impl FromStr for SplitArg {
     fn from_str(text: &str) -> Result<Self, String> {
         let part = |text: &str| text.parse().ok().filter(|part| (0.0..=1.0).contains(part));
         let split = match (text, text.strip_prefix("blended:").and_then(part)) {
-            ("uniform", _) => shadowfit::Split::Uniform,
-            ("log", _) => shadowfit::Split::Logarithmic,
-            (_, Some(part)) => shadowfit::Split::Blended(part),
+            ("uniform", _) => shadowfit::cascades::SplitScheme::Uniform,
+            ("log", _) => shadowfit::cascades::SplitScheme::Logarithmic,
+            (_, Some(part)) => shadowfit::cascades::SplitScheme::Practical(part),
             _ => return Err("write uniform, log, or blended:PART with the logarithmic part, from 0 to 1".into()),
         };
         Ok(Self(split))
@@ -61,9 +64,9 @@ impl serde::Serialize for SplitArg {
 impl Slicing {
     /// The cuts: between the depths of what may be seen, or, where they must not move with the camera, between its planes.
     #[must_use]
-    pub fn cuts(&self, stay_put: bool) -> Cuts<'static> {
+    pub fn cuts(&self, stay_put: bool) -> CascadeSplits<'static> {
         let Self { count, split: SplitArg(split) } = *self;
-        if stay_put { Cuts::View { count, split } } else { Cuts::Visible { count, split } }
+        if stay_put { CascadeSplits::View { count, split } } else { CascadeSplits::Visible { count, split } }
     }
 }
 
@@ -72,8 +75,13 @@ impl Slicing {
 /// # Errors
 ///
 /// When cuts are to stay put in a view without an end.
-pub fn slices(view: &View, light: &Light, scene: &Scene<'static>, cuts: Cuts<'static>) -> Result<Slices<'static>> {
-    Slices::new(view, light, scene, cuts, 0.0)
+pub fn slices(
+    view: &View,
+    light: &Light,
+    scene: &Scene<'static>,
+    cuts: CascadeSplits<'static>,
+) -> Result<Cascades<'static>> {
+    Cascades::new(view, light, scene, cuts, 0.0)
         .context("the view cannot be sliced; stable slices need a --far that is not inf")
 }
 

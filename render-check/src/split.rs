@@ -1,7 +1,10 @@
 //! Which of a light's maps answers for a point.
 
 use shadowfit::glam::{DVec3, DVec4};
-use shadowfit::{CubeFace, Cuts, Slices};
+use shadowfit::{
+    cascades::{CascadeSplits, Cascades},
+    omni::CubeFace,
+};
 
 /// How what a light shines on is shared out among its maps.
 #[derive(Clone, Debug)]
@@ -18,9 +21,9 @@ pub enum Split {
     /// By the depth before the eye: each part is a slice of the view.
     Depths {
         /// How the view was cut.
-        cuts: Cuts<'static>,
+        cuts: CascadeSplits<'static>,
         /// The slices.
-        slices: Box<Slices<'static>>,
+        slices: Box<Cascades<'static>>,
     },
 }
 
@@ -45,7 +48,7 @@ impl Split {
 
     /// The slices of a view that was cut so.
     #[must_use]
-    pub fn slices(cuts: Cuts<'static>, slices: Slices<'static>) -> Self {
+    pub fn slices(cuts: CascadeSplits<'static>, slices: Cascades<'static>) -> Self {
         Self::Depths { cuts, slices: Box::new(slices) }
     }
 
@@ -99,9 +102,9 @@ impl Split {
 
     /// Where slices end, in f32 as a shader compares it, the last one never; nothing where there are no slices.
     #[must_use]
-    pub fn ends(&self) -> Option<[f32; Slices::MAX]> {
+    pub fn ends(&self) -> Option<[f32; Cascades::MAX]> {
         let Self::Depths { slices, .. } = self else { return None };
-        let mut ends = [f32::MAX; Slices::MAX];
+        let mut ends = [f32::MAX; Cascades::MAX];
         for (end, slice) in ends.iter_mut().zip(&slices[..slices.len() - 1]) {
             *end = slice.far as f32;
         }
@@ -157,7 +160,7 @@ mod tests {
         let view = View::perspective(eye, forward, DVec3::Y, 1.0, 1.6, 0.5, 64.0).expect("sound");
         let light = Light::directional(DVec3::Y).expect("sound");
         let scene = Scene::from_box(DVec3::splat(-500.0), DVec3::splat(500.0)).expect("sound");
-        let cuts = Slicing { count: 7, split: SplitArg(shadowfit::Split::Logarithmic) }.cuts(true);
+        let cuts = Slicing { count: 7, split: SplitArg(shadowfit::cascades::SplitScheme::Logarithmic) }.cuts(true);
         let split = Split::slices(cuts, slicing::slices(&view, &light, &scene, cuts).expect("sound"));
         let ends = split.ends().expect("slices");
         assert_eq!((split.parts(), ends[6], ends[7]), (7, f32::MAX, f32::MAX));

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use clap::ValueEnum;
-use shadowfit::{Effort, Form, Settings, Shift, Warp};
+use shadowfit::{Effort, FocusForm, Settings, Warp, warp::Shift};
 
 /// A way to spread a map's texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum, serde::Serialize)]
@@ -98,16 +98,16 @@ impl Technique {
         let (warp, shift) = match self {
             Self::Uniform | Self::Cube | Self::Paraboloid => (Warp::Uniform, Shift::None),
             Self::Stable | Self::CubeStable => (Warp::Stable, Shift::None),
-            Self::Psm | Self::CubePsm => (Warp::Perspective, Shift::Back(Form::Paper)),
-            Self::PsmTight => (Warp::Perspective, Shift::Back(Form::Tight)),
+            Self::Psm | Self::CubePsm => (Warp::Perspective, Shift::Back(FocusForm::ViewHull)),
+            Self::PsmTight => (Warp::Perspective, Shift::Back(FocusForm::ReceiverHull)),
             Self::PsmUnshifted => (Warp::Perspective, Shift::None),
             Self::LightSpace => (Warp::LightSpace, Shift::None),
             Self::Trapezoidal => (Warp::Trapezoidal, Shift::None),
             // Its search begins at the perspective map, too, as the paper has that.
-            Self::Best => (Warp::Best(Effort::Good), Shift::Back(Form::Paper)),
-            Self::BestClosed => (Warp::Best(Effort::ClosedForms), Shift::Back(Form::Paper)),
-            Self::BestRough => (Warp::Best(Effort::Rough), Shift::Back(Form::Paper)),
-            Self::BestThorough => (Warp::Best(Effort::Thorough), Shift::Back(Form::Paper)),
+            Self::Best => (Warp::Best(Effort::Good), Shift::Back(FocusForm::ViewHull)),
+            Self::BestClosed => (Warp::Best(Effort::ClosedForms), Shift::Back(FocusForm::ViewHull)),
+            Self::BestRough => (Warp::Best(Effort::Rough), Shift::Back(FocusForm::ViewHull)),
+            Self::BestThorough => (Warp::Best(Effort::Thorough), Shift::Back(FocusForm::ViewHull)),
         };
         settings.with_warp(warp).with_shift(shift)
     }
@@ -132,7 +132,7 @@ mod tests {
         for &way in ways {
             assert_eq!(Technique::of(&way.settings(Settings::default())), way);
             // The back-shift makes no difference to other warps than the camera's.
-            let shifted = way.settings(Settings::default()).with_shift(Shift::Back(Form::Tight));
+            let shifted = way.settings(Settings::default()).with_shift(Shift::Back(FocusForm::ReceiverHull));
             assert_eq!(Technique::of(&shifted).settings(shifted).warp(), shifted.warp());
         }
     }

@@ -5,7 +5,10 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::query::{PointQuery as _, Ray as ParryRay, RayCast, RayCullingMode};
 use parry3d_f64::shape::TriMesh;
 use shadowfit::glam::DVec3;
-use shadowfit::{Culling, DepthTest, Solidity};
+use shadowfit::{
+    depth::{Culling, DepthTest},
+    mesh::Solidity,
+};
 
 use crate::scene::Mesh;
 
@@ -155,7 +158,7 @@ impl<'a> Tracer<'a> {
         let hit = Hit::along(ray, found.time_of_impact, self.mesh, found.subshape as usize);
         let is_drawn = |triangle| {
             let object = self.mesh.object_of(triangle);
-            faces != Faces::Second || object.is_none_or(|object| object.solidity != Solidity::InsideOut)
+            faces != Faces::Second || object.is_none_or(|object| object.solidity != Solidity::Inverted)
         };
         is_drawn(hit.triangle).then_some(hit)
     }

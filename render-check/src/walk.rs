@@ -193,7 +193,7 @@ impl Walker {
         if let Some(maps) = &next_maps {
             let settings = options.settings(next)?;
             self.times.push(median_time(FITS, || maps.fit_again(before, next, &settings)));
-            self.switches += usize::from(maps.switched());
+            self.switches += usize::from(maps.jumped());
         }
         self.steps.push(match (&self.maps, &next_maps) {
             (Some(these), Some(those)) => Some(compare((here, these), (next, those), again, light, options)?),

@@ -15,7 +15,10 @@ use render_check::stage::Stage;
 use render_check::technique::Technique;
 use render_check::trace::Tracer;
 use shadowfit::glam::{DMat4, DVec3, DVec4};
-use shadowfit::{ClipSpace, Form, Outcome, Plane, SharedFocus, View};
+use shadowfit::{
+    ClipSpace, FocusForm, Outcome, View,
+    focus::{Plane, SharedFocus},
+};
 
 const IMAGE: [u32; 2] = [160, 100];
 const MAP: u32 = 512;
@@ -106,9 +109,9 @@ fn two_eyes_in_one_map() {
             let Outcome::Map(map) = shared.fit(&options.settings(stage).expect("sound")) else {
                 panic!("one map does");
             };
-            let bodies: Vec<_> = shared.bodies(Form::Tight).collect();
+            let bodies: Vec<_> = shared.bodies(FocusForm::ReceiverHull).collect();
             let objects = mesh.objects.iter().enumerate();
-            let casts = |min: DVec3, max: DVec3| bodies.iter().any(|body| body.meets_box(min, max));
+            let casts = |min: DVec3, max: DVec3| bodies.iter().any(|body| body.intersects_aabb(min, max));
             let objects =
                 objects.filter(|(_, object)| casts(object.min, object.max)).map(|(index, _)| index).collect();
             let layout = Layout::Frustum(map);

@@ -17,7 +17,7 @@ use render_check::technique::Technique;
 use render_check::trace::{Faces, Ray, Tracer};
 use render_check::verdict::{Counts, Mark};
 use shadowfit::glam::DVec3;
-use shadowfit::{Solidity, Surface};
+use shadowfit::{mesh::Solidity, plan::Surface};
 
 fn built_in(name: &str) -> LoadedScene {
     scene::load(Path::new(name)).expect("built in")
@@ -111,13 +111,12 @@ fn rays_survive_every_fault() {
 fn what_is_inside_out_is_no_solid() {
     for name in ["chess-board", "table"] {
         let sound = built_in(name);
-        for (fault, expected) in [(Fault::InsideOut, Solidity::InsideOut), (Fault::PartlyReversed, Solidity::Open)]
-        {
+        for (fault, expected) in [(Fault::InsideOut, Solidity::Inverted), (Fault::PartlyReversed, Solidity::Open)] {
             let scene = damaged(&sound, fault);
             assert!(scene.left_out.is_nothing(), "{}", scene.left_out);
             for (i, (object, before)) in scene.mesh.objects.iter().zip(&sound.mesh.objects).enumerate() {
-                assert_eq!(before.solidity, Solidity::Solid, "{name}, {i}");
-                let expected = if i % 3 == 0 { expected } else { Solidity::Solid };
+                assert_eq!(before.solidity, Solidity::Watertight, "{name}, {i}");
+                let expected = if i % 3 == 0 { expected } else { Solidity::Watertight };
                 assert_eq!(object.solidity, expected, "{name}, {i}");
                 assert!(object.surface == Surface::Mesh(expected) || expected == Solidity::Open, "{name}, {i}");
             }
@@ -204,7 +203,7 @@ fn positions_in_f32_are_on_its_grid_and_keep_their_solids() {
         assert!(mesh.vertices.iter().all(|vertex| (vertex.x / step).fract() == 0.0));
         let lost = before.triangles.len() - mesh.triangles.len();
         assert_eq!(lost, scene.left_out.flat + scene.left_out.twice, "{}", scene.left_out);
-        let solids = mesh.objects.iter().filter(|object| object.solidity == Solidity::Solid).count();
+        let solids = mesh.objects.iter().filter(|object| object.solidity == Solidity::Watertight).count();
         assert!(solids as f64 >= least * before.objects.len() as f64, "{distance}: {solids}");
     }
 }

@@ -15,7 +15,7 @@ use render_check::stage::{Stage, StageLight};
 use render_check::technique::Technique;
 use render_check::trace::Tracer;
 use render_check::verdict::Mark;
-use shadowfit::{Slices, View};
+use shadowfit::{View, cascades::Cascades};
 
 const IMAGE: [u32; 2] = [240, 150];
 
@@ -52,7 +52,7 @@ fn no_slice_misses_a_caster_and_no_cut_shows() {
         let lights: Vec<_> = scene.lights.iter().map(|spec| stage.light(*spec).expect("sound")).collect();
         let (mut at_cuts, mut faults_at_cuts) = (0, 0);
         for technique in [Technique::Uniform, Technique::Psm, Technique::Best, Technique::Stable] {
-            for (count, light) in (1..=Slices::MAX).zip(lights.iter().cycle()) {
+            for (count, light) in (1..=Cascades::MAX).zip(lights.iter().cycle()) {
                 let run = run_one(&stage, light, &sliced(technique, count));
                 let (split, counts, case) = (
                     &run.fitted.split,
@@ -89,7 +89,7 @@ fn wrong_pixels_fall_with_the_number_of_slices() {
     let light = stage.light(scene.lights[0]).expect("sound");
     for (technique, fall) in [(Technique::Uniform, [2.0, 2.8, 4.0]), (Technique::Best, [1.5, 2.0, 2.5])] {
         let runs: Vec<_> =
-            (1..=Slices::MAX).map(|count| run_one(&stage, &light, &sliced(technique, count))).collect();
+            (1..=Cascades::MAX).map(|count| run_one(&stage, &light, &sliced(technique, count))).collect();
         let predicted = |run: &MapRun| run.prediction.predicted.expect("frusta");
         for pair in runs.windows(2) {
             // The best map's worst is not what it is chosen by alone.
@@ -163,7 +163,7 @@ fn wide_filters_need_no_other_slices_texels() {
     let stage = stage(&gpu, &tracer, &view);
     for spec in &scene.lights {
         let light = stage.light(*spec).expect("sound");
-        let options = Options { filter: Filter::PercentageCloser(5), ..sliced(Technique::Uniform, 5) };
+        let options = Options { filter: Filter::Pcf(5), ..sliced(Technique::Uniform, 5) };
         let counts = run_one(&stage, &light, &options).verdict.counts;
         assert_eq!(counts.missing, 0, "{spec}");
         assert!(counts.fraction(counts.faults()) < 0.002, "{spec}: {counts:?}");

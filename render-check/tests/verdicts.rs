@@ -20,7 +20,7 @@ use render_check::technique::Technique;
 use render_check::trace::{Faces, Tracer};
 use render_check::verdict::{self, DrawnMap, Frustum, Rendered, Verdict, judge};
 use shadowfit::glam::DVec3;
-use shadowfit::{DepthFormat, Map, Origin, Settings, View, fit};
+use shadowfit::{DepthFormat, Origin, Settings, ShadowMap, View, fit};
 
 /// What straight edges make of a paraboloid: the shade around the lamp is small, and the light sees each of its facets
 /// under a large angle. Cutting walls on a grid does nothing for it; cutting by the angle does.
@@ -57,7 +57,7 @@ fn the_seam_between_hemispheres_does_not_show() {
     let stage = Stage::new(&gpu, &tracer, &view, [480, 300]).expect("drawn");
     let position = DVec3::new(0.0, 1.5, -2.5);
     let light = stage.light(LightSpec::Point { position, range: f64::INFINITY }).expect("sound");
-    for filter in [Filter::Nearest, Filter::PercentageCloser(5)] {
+    for filter in [Filter::Nearest, Filter::Pcf(5)] {
         let options = Options { filter, ..Options::new(Technique::Paraboloid, 512) };
         let run = run(&stage, &light, &options).expect("drawn").unwrap_or_else(|none| panic!("{none}"));
         let (mut at_seam, mut faults) = (0, 0);
@@ -117,7 +117,7 @@ fn along_the_light_a_warp_is_no_warp() {
 }
 
 /// Draws some casters through some map and judges it: what a broken fit or a broken culler would do.
-fn judged(stage: &Stage<'_>, light: &StageLight, map: &Map, casters: &[std::ops::Range<u32>]) -> Verdict {
+fn judged(stage: &Stage<'_>, light: &StageLight, map: &ShadowMap, casters: &[std::ops::Range<u32>]) -> Verdict {
     let bias = Bias { constant: 9, slope: 1.125 };
     let pass = MapPass {
         format: DepthFormat::Unorm24,
@@ -194,8 +194,8 @@ fn solids_need_no_bias_in_second_depth() {
         let unbiased = of(Faces::All, Filter::Nearest, Some(Bias::NONE));
         assert!(faults(&unbiased) > 0.25, "{case}: {}", faults(&unbiased));
         // With one: no acne, but light where shadows should begin, the more the wider the filter is.
-        let biased = [Filter::Nearest, Filter::PercentageCloser(5)].map(|filter| of(Faces::All, filter, None));
-        let second = [Filter::Nearest, Filter::PercentageCloser(5)].map(|filter| of(Faces::Second, filter, None));
+        let biased = [Filter::Nearest, Filter::Pcf(5)].map(|filter| of(Faces::All, filter, None));
+        let second = [Filter::Nearest, Filter::Pcf(5)].map(|filter| of(Faces::Second, filter, None));
         assert_eq!(second[0].fitted.maps[0].as_ref().map(|map| map.pass.bias), Some(Bias::NONE));
         // Without any bias, texels that straddle an edge of a solid are all that is wrong with the second surface.
         assert!(

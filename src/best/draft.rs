@@ -7,7 +7,7 @@ use crate::view::View;
 use glam::{DMat2, DVec2, DVec3};
 
 /// The squared length, in half heights of the image, of steps across the window: a quadratic form. Of steps of a texel it is
-/// the square of the footprint that [`Map::footprint`](crate::Map::footprint) tells.
+/// the square of the footprint that [`ShadowMap::footprint`](crate::ShadowMap::footprint) tells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
     pub(super) xx: f64,

@@ -14,7 +14,7 @@ mod step;
 
 use crate::bounds::{least, most};
 use crate::homography::Frame;
-use crate::map::Map;
+use crate::map::ShadowMap;
 use crate::rays::{Functional, Rays};
 use crate::settings::{Effort, Settings};
 use crate::warp::{MAX_RATIO, NEAREST, Proposed, Samples, Visible, light_space, trapezoidal};
@@ -40,7 +40,7 @@ pub(crate) fn choose<P: Iterator<Item = DVec3> + Clone>(
     perspective: Proposed,
     effort: Effort,
     settings: &Settings,
-    before: Option<&Map>,
+    before: Option<&ShadowMap>,
     samples: &Samples,
 ) -> Chosen {
     let Visible { rays, middle, .. } = *visible;
@@ -144,14 +144,14 @@ fn mixed<P: Iterator<Item = DVec3> + Clone>(
 }
 
 /// The rows x, y and w of a map on the chart, w 1 in the middle.
-fn rows_of(map: &Map, rays: &Rays, middle: DVec2) -> Rows {
+fn rows_of(map: &ShadowMap, rays: &Rays, middle: DVec2) -> Rows {
     let [x, y, _, w] = map.rows.map(|row| rays.functional(&row));
     let scale = w.at(middle).recip();
     [x, y, w].map(|row| row.scaled(scale))
 }
 
 /// The same before it was mixed, and by how much it had been weakened then; `None` where nothing was left of what was found.
-fn unmixed(map: &Map, rays: &Rays, middle: DVec2) -> Option<(Rows, f64)> {
+fn unmixed(map: &ShadowMap, rays: &Rays, middle: DVec2) -> Option<(Rows, f64)> {
     if !map.mixed.is_finite() {
         return None;
     }

@@ -15,7 +15,7 @@ use glam::DVec3;
 ///   that is in the body by less than that may be outside of the exact one.
 /// - It holds its memory itself: a body is a few kilobytes and allocates nothing.
 #[derive(Clone, Debug)]
-pub struct Body {
+pub struct ConvexBody {
     positions: [DVec3; Polyhedron::MAX_VERTICES],
     /// For each vertex, the planes it lies on, one bit each.
     incidence: [u64; Polyhedron::MAX_VERTICES],
@@ -28,7 +28,7 @@ pub struct Body {
 /// Planes by their names.
 pub(crate) type PlaneTable = [Plane; Polyhedron::MAX_PLANES];
 
-impl Body {
+impl ConvexBody {
     pub(crate) fn new(polyhedron: &Polyhedron, planes: PlaneTable) -> Self {
         let mut body = Self {
             positions: [DVec3::ZERO; Polyhedron::MAX_VERTICES],
@@ -155,11 +155,11 @@ impl Body {
     }
 }
 
-/// A face of a [`Body`]: a convex polygon, but where two planes nearly coincide. Corners on both are anywhere between the two,
+/// A face of a [`ConvexBody`]: a convex polygon, but where two planes nearly coincide. Corners on both are anywhere between the two,
 /// which is nothing across the plane and may be much along it.
 #[derive(Clone, Copy, Debug)]
 pub struct Face<'a> {
-    body: &'a Body,
+    body: &'a ConvexBody,
     plane: Plane,
     order: [u8; Polyhedron::MAX_VERTICES],
     len: usize,
@@ -177,7 +177,7 @@ impl Face<'_> {
         self.indices().map(|index| self.body.positions[index])
     }
 
-    /// The corners as indices into [`Body::vertices`], counter-clockwise as seen from outside the body.
+    /// The corners as indices into [`ConvexBody::vertices`], counter-clockwise as seen from outside the body.
     pub fn indices(&self) -> impl ExactSizeIterator<Item = usize> + Clone + '_ {
         self.order[..self.len].iter().map(|&index| usize::from(index))
     }

@@ -7,7 +7,7 @@ mod plane;
 mod polyhedron;
 
 pub(crate) use bits::Bits;
-pub use body::{Body, Face};
+pub use body::{ConvexBody, Face};
 pub use plane::Plane;
 pub(crate) use plane::matrix_from_rows;
 pub(crate) use polyhedron::{PlaneId, Polyhedron, box_planes};

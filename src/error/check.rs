@@ -1,9 +1,9 @@
 //! The checks that the constructors share, each naming its field.
 
-use super::{Expected, InputError, MAX_COORDINATE, MIN_DISTANCE, Problem};
+use super::{Expected, InputError, InputErrorKind, MAX_COORDINATE, MIN_DISTANCE};
 use glam::DVec3;
 
-pub(crate) const fn fail<T>(field: &'static str, problem: Problem) -> Result<T, InputError> {
+pub(crate) const fn fail<T>(field: &'static str, problem: InputErrorKind) -> Result<T, InputError> {
     Err(InputError::new(field, problem))
 }
 
@@ -44,12 +44,12 @@ pub(crate) fn part(field: &'static str, value: f64, most: f64) -> Result<f64, In
 pub(crate) fn within(field: &'static str, value: f64, expected: Expected) -> Result<f64, InputError> {
     let Expected::Within { least, most } = expected else { return Ok(value) };
     let problem = if !value.is_finite() {
-        Problem::NotFinite
+        InputErrorKind::NotFinite
     } else if value < least {
         // A coordinate far below zero is as large as one above it.
-        if value < -MAX_COORDINATE && least < 0.0 { Problem::TooLarge } else { Problem::TooSmall }
+        if value < -MAX_COORDINATE && least < 0.0 { InputErrorKind::TooLarge } else { InputErrorKind::TooSmall }
     } else if value > most {
-        Problem::TooLarge
+        InputErrorKind::TooLarge
     } else {
         return Ok(value);
     };
@@ -67,7 +67,7 @@ pub(crate) fn above(field: &'static str, value: f64, than: &'static str, other: 
         return Ok(());
     }
     let expected = Expected::Above { field: than, value: other };
-    Err(InputError::new(field, Problem::OutOfOrder).got(value).expected(expected))
+    Err(InputError::new(field, InputErrorKind::OutOfOrder).got(value).expected(expected))
 }
 
 /// An angle in an open range, in radians.
@@ -75,14 +75,16 @@ pub(crate) fn angle(field: &'static str, value: f64, above: f64, below: f64) -> 
     if value > above && value < below {
         return Ok(value);
     }
-    Err(InputError::new(field, Problem::AngleOutOfRange).got(value).expected(Expected::Between { above, below }))
+    Err(InputError::new(field, InputErrorKind::AngleOutOfRange)
+        .got(value)
+        .expected(Expected::Between { above, below }))
 }
 
 /// A direction, made unit length whatever its length was; one that is unit length stays as it is to the last bit.
 pub(crate) fn direction(field: &'static str, value: DVec3) -> Result<DVec3, InputError> {
     let components = value.to_array();
     if let Some(axis) = components.iter().position(|component| !component.is_finite()) {
-        return Err(InputError::new(field, Problem::NotFinite).got(components[axis]).of_axis(axis));
+        return Err(InputError::new(field, InputErrorKind::NotFinite).got(components[axis]).of_axis(axis));
     }
     if (value.length_squared() - 1.0).abs() <= 4.0 * f64::EPSILON {
         return Ok(value.map(flushed));
@@ -90,7 +92,7 @@ pub(crate) fn direction(field: &'static str, value: DVec3) -> Result<DVec3, Inpu
     // Scaled by a power of two first, so that neither tiny nor huge directions under- or overflow when squared.
     let largest = value.abs().max_element();
     if largest == 0.0 {
-        return fail(field, Problem::NoDirection);
+        return fail(field, InputErrorKind::NoDirection);
     }
     let scaled = value / largest;
     Ok((scaled / scaled.length()).map(flushed))

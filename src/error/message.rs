@@ -1,6 +1,6 @@
 //! Errors as sentences.
 
-use super::{Expected, InputError, MAX_COORDINATE, MIN_DISTANCE, Problem};
+use super::{Expected, InputError, InputErrorKind, MAX_COORDINATE, MIN_DISTANCE};
 use core::f64::consts::{FRAC_PI_2, PI};
 use core::fmt;
 
@@ -14,8 +14,8 @@ impl fmt::Display for InputError {
             write!(f, ".{component}")?;
         }
         match (self.problem, self.value, self.expected) {
-            (Problem::NotFinite, Some(value), _) if value.is_nan() => f.write_str(" is NaN"),
-            (Problem::NotFinite, Some(_), _) => f.write_str(" must be finite; got infinity"),
+            (InputErrorKind::NotFinite, Some(value), _) if value.is_nan() => f.write_str(" is NaN"),
+            (InputErrorKind::NotFinite, Some(_), _) => f.write_str(" must be finite; got infinity"),
             (problem, Some(value), Some(expected)) => {
                 let got = Number(value);
                 match expected {
@@ -23,7 +23,7 @@ impl fmt::Display for InputError {
                         write!(f, " must lie in [{}, {}]; got {got}", Number(least), Number(most))
                     }
                     Expected::Between { above, below } => {
-                        let unit = if problem == Problem::AngleOutOfRange { " radians" } else { "" };
+                        let unit = if problem == InputErrorKind::AngleOutOfRange { " radians" } else { "" };
                         write!(f, " must lie in ({}, {}){unit}; got {got}", Number(above), Number(below))
                     }
                     Expected::Above { field, value } => {

@@ -24,11 +24,11 @@ pub const MIN_DISTANCE: f64 = 1.0 / MAX_COORDINATE;
 /// Every constructor checks its arguments once; past the door there are no errors, only results.
 ///
 /// ```
-/// use shadowfit::{Aabb, Expected, Hint, Light, Problem, Scene, View};
+/// use shadowfit::{Aabb, Light, Scene, View, input::{Expected, Hint, InputErrorKind}};
 ///
 /// let view = View::perspective((0.0, 1.7, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 60.0, 1.6, 0.1, 500.0);
 /// let error = view.unwrap_err();
-/// assert_eq!((error.field, error.problem), ("fov_y", Problem::AngleOutOfRange));
+/// assert_eq!((error.field, error.problem), ("fov_y", InputErrorKind::AngleOutOfRange));
 /// assert_eq!((error.value, error.hint), (Some(60.0), Some(Hint::Degrees)));
 /// assert_eq!(error.to_string(), "fov_y must lie in (0, π) radians; got 60. Degrees?");
 ///
@@ -46,7 +46,7 @@ pub struct InputError {
     /// Which number of a vector or a box it is, as `"y"` or `"min.y"`.
     pub component: Option<&'static str>,
     /// What is wrong with it.
-    pub problem: Problem,
+    pub problem: InputErrorKind,
     /// The number that was refused.
     pub value: Option<f64>,
     /// What it must be instead.
@@ -90,7 +90,7 @@ pub enum Expected {
 }
 
 impl InputError {
-    pub(crate) const fn new(field: &'static str, problem: Problem) -> Self {
+    pub(crate) const fn new(field: &'static str, problem: InputErrorKind) -> Self {
         Self { field, index: None, component: None, problem, value: None, expected: None, hint: None }
     }
 
@@ -138,7 +138,7 @@ impl PartialEq for InputError {
 /// What is wrong with a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Problem {
+pub enum InputErrorKind {
     /// NaN or infinite where a number is needed.
     NotFinite,
     /// A length or count that must be positive and no smaller than [`MIN_DISTANCE`], or a part less than 0.
@@ -178,7 +178,7 @@ pub enum Problem {
     OutOfRange,
 }
 
-impl fmt::Display for Problem {
+impl fmt::Display for InputErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::NotFinite => "is not a finite number",

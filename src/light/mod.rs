@@ -6,7 +6,7 @@ mod stored;
 use crate::angle;
 use crate::convex::Plane;
 use crate::cube::CubeFace;
-use crate::error::{Expected, Hint, InputError, MIN_DISTANCE, Problem, check};
+use crate::error::{Expected, Hint, InputError, InputErrorKind, MIN_DISTANCE, check};
 use crate::numbers::vector;
 use core::f64::consts::{FRAC_PI_2, PI};
 use glam::{DVec2, DVec3, DVec4};
@@ -186,7 +186,7 @@ impl Light {
     /// Names `"light"` when it is no spot, and `"up"` when it is not finite, zero, or parallel to the axis.
     pub fn with_up<F: Into<f64>>(self, up: impl Into<[F; 3]>) -> Result<Self, InputError> {
         let Kind::Local { position, near, range, shape: Shape::Spot { axis, half_angle, .. } } = self.kind else {
-            return check::fail("light", Problem::NotASpot);
+            return check::fail("light", InputErrorKind::NotASpot);
         };
         let up = Some(across(axis, vector(up))?);
         let shape = Shape::Spot { axis, half_angle, up };
@@ -200,7 +200,7 @@ impl Light {
     /// L is then that much smaller, for receivers and for casters alike: what a plane cuts off neither is lit nor casts.
     ///
     /// ```
-    /// use shadowfit::{Light, Plane};
+    /// use shadowfit::{Light, focus::Plane};
     ///
     /// // A sun that shines in one room only.
     /// let (low, high) = (Plane::from([1.0, 0.0, 0.0, 4.0]), Plane::from([-1.0, 0.0, 0.0, 4.0]));
@@ -215,7 +215,7 @@ impl Light {
     /// direction.
     pub fn within(self, planes: &[Plane]) -> Result<Self, InputError> {
         if planes.len() > Self::MAX_WITHIN {
-            return check::fail("planes", Problem::TooMany);
+            return check::fail("planes", InputErrorKind::TooMany);
         }
         let mut within = [None; Self::MAX_WITHIN];
         for (index, (slot, plane)) in within.iter_mut().zip(planes).enumerate() {
@@ -243,13 +243,13 @@ impl Light {
     pub fn cube_face(&self, face: CubeFace, overlap: f64) -> Result<Self, InputError> {
         let overlap = check::part("overlap", overlap, CubeFace::MAX_OVERLAP)?;
         let Kind::Local { position, near, range, shape } = self.kind else {
-            return check::fail("light", Problem::NotAllAround);
+            return check::fail("light", InputErrorKind::NotAllAround);
         };
         let hemisphere = match shape {
             Shape::Point => None,
             Shape::Hemisphere { axis } => Some(axis),
             Shape::Spot { .. } | Shape::Pyramid { .. } | Shape::CubeFace { .. } => {
-                return check::fail("light", Problem::NotAllAround);
+                return check::fail("light", InputErrorKind::NotAllAround);
             }
         };
         let part = Self::local(position, near, range, Shape::CubeFace { face, overlap, hemisphere })?;
@@ -372,7 +372,7 @@ fn across(axis: DVec3, up: DVec3) -> Result<DVec3, InputError> {
     }
     let across = up - axis * along;
     // Nearer to the axis than this its direction is rounding.
-    if across.length() < 1e-9 { check::fail("up", Problem::Parallel) } else { Ok(across.normalize()) }
+    if across.length() < 1e-9 { check::fail("up", InputErrorKind::Parallel) } else { Ok(across.normalize()) }
 }
 
 /// The axes across a spot: those of any light with its axis, or turned to its own `up`.

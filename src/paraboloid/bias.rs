@@ -3,7 +3,7 @@
 use super::Paraboloid;
 use crate::bias::{DepthBias, GRID, LEAST_HEIGHT, checked_reach, stepped};
 use crate::error::InputError;
-use crate::offset::Offset;
+use crate::offset::ReceiverOffset;
 use crate::quality::DepthFormat;
 use glam::{DMat4, DVec2, DVec3, Mat4, Vec2};
 
@@ -16,8 +16,8 @@ impl Paraboloid {
     /// ([`wgsl::PARABOLOID`](crate::wgsl::PARABOLOID)), which adds it itself. A rasteriser cannot: the depths that it knows
     /// are not those of the plane.
     ///
-    /// `reach` is as for [`Map::bias`](crate::Map::bias). The shader takes [`DepthBias::in_shader`], receivers take
-    /// [`Self::receiver_matrix`] with [`DepthBias::offset`].
+    /// `reach` is as for [`ShadowMap::bias`](crate::ShadowMap::bias). The shader takes [`DepthBias::in_shader`], receivers take
+    /// [`Self::receiver_matrix_with`] with [`DepthBias::offset`].
     ///
     /// # Derivation
     ///
@@ -32,7 +32,7 @@ impl Paraboloid {
     /// and what the shader writes is 1 over the right hand side: **the farthest distance of the plane within the reach**, and
     /// no less than any receiver's, also where the light grazes the plane and slopes alone would say nothing. For this the
     /// slope multiplies the sum of the changes across and down, where a rasteriser's multiplies the larger one, and it is
-    /// half of what [`Map::bias`](crate::Map::bias) would give.
+    /// half of what [`ShadowMap::bias`](crate::ShadowMap::bias) would give.
     ///
     /// That leaves rounding, as derived for [`DepthBias`]: corners of the triangle are off by s = t + 1/256 texels across and
     /// by ε in depth, and of that k = 1 + 2√2 r/h, of 1 − 4 s/h, is found at the receiver. The slope is r + k s/(1 − 4 s/h).
@@ -63,7 +63,7 @@ impl Paraboloid {
         Ok(DepthBias {
             format,
             constant: 1,
-            slope: stepped(slope),
+            slope_scale: stepped(slope),
             receiver,
             relative: 0.0,
             most: receiver,
@@ -71,12 +71,12 @@ impl Paraboloid {
         })
     }
 
-    /// The matrix for receivers: [`Self::matrix`] with an offset in it.
+    /// The matrix for receivers: [`Self::caster_matrix`] with an offset in it.
     ///
     /// Depth is distance, so that every kind of offset is exactly what it says, for all receivers:
-    /// [`Offset::world`] moves each by just that distance, [`Offset::relative`] by just that part.
+    /// [`ReceiverOffset::world`] moves each by just that distance, [`ReceiverOffset::relative`] by just that part.
     #[must_use]
-    pub fn receiver_matrix(&self, offset: &Offset) -> Mat4 {
+    pub fn receiver_matrix_with(&self, offset: &ReceiverOffset) -> Mat4 {
         let (part, nearer) = offset.of_distance(self.range());
         // (u, v) do not change with the length of q. The last row holds what is taken off the distance.
         let mut matrix = DMat4::from_scale(DVec3::splat(part))
@@ -94,7 +94,7 @@ impl Paraboloid {
         let (distance, Some(slopes)) = (point.distance(self.position), self.distance_slopes(point, normal)) else {
             return f64::INFINITY;
         };
-        let relative = f64::from(bias.slope) * slopes.abs().element_sum() / distance;
+        let relative = f64::from(bias.slope_scale) * slopes.abs().element_sum() / distance;
         let stored = if relative < 1.0 { distance / (1.0 - relative) } else { f64::INFINITY };
         let unit = *bias.format.bias_unit(1.0).end();
         let added = f64::from(bias.constant) * unit + bias.receiver + bias.format.step(0.5);
@@ -120,6 +120,6 @@ impl DepthBias {
     #[must_use]
     pub fn in_shader(&self) -> Vec2 {
         let unit = *self.format.bias_unit(1.0).end();
-        Vec2::new((f64::from(self.constant) * unit) as f32, self.slope)
+        Vec2::new((f64::from(self.constant) * unit) as f32, self.slope_scale)
     }
 }

@@ -4,7 +4,7 @@ use super::Paraboloid;
 use crate::convex::{Plane, Polyhedron};
 use crate::error::{InputError, check};
 use crate::fit::Empty;
-use crate::focus::{Focus, Form};
+use crate::focus::{Focus, FocusForm};
 use crate::frame;
 use crate::numbers::vector;
 use crate::settings::Settings;
@@ -78,13 +78,13 @@ impl Focus<'_> {
         let mut separating = Separating::from(self.light().position().unwrap_or_default());
         self.cut_visible(&mut body, |plane, _| separating.consider(plane));
         if body.is_empty() {
-            return Paraboloids::Empty(Empty::NothingVisible);
+            return Paraboloids::Empty(Empty::NoReceivers);
         }
         let Some(position) = self.light().position() else { return Paraboloids::Directional };
         let far = body.positions().map(|point| point.distance(position)).fold(0.0, f64::max);
         // All that is visible may be nearer to the light than anything casts.
-        if far <= self.light().near() || self.body(Form::Tight).is_empty() {
-            return Paraboloids::Empty(Empty::NothingCasts);
+        if far <= self.light().near() || self.caster_volume(FocusForm::ReceiverHull).is_empty() {
+            return Paraboloids::Empty(Empty::NoCasters);
         }
         let around = |axis: DVec3| {
             // A frame that no camera moves.

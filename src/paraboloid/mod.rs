@@ -40,7 +40,7 @@ use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec4};
 /// # Drawing with it
 ///
 /// The projection is no matrix, but all of it that differs from map to map is. The renderer uploads
-/// [`Self::matrix`], [`Self::clip_scale`] and [`Self::texture_scale`]; for each vertex
+/// [`Self::caster_matrix`], [`Self::clip_scale`] and [`Self::texture_scale`]; for each vertex
 ///
 /// ```text
 ///     q        = matrix · (position, 1)
@@ -59,7 +59,7 @@ use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec4};
 /// With R what is visible and lit, and points of it at least the light's near distance from the light:
 ///
 /// - a point of R is inside the disc of the map whose hemisphere it is in, to rounding, and its depth, evaluated in f32,
-///   is from 0 to 1. There is an exception as for [`Map`](crate::Map): a light so far from the origin that f32 cannot tell its near
+///   is from 0 to 1. There is an exception as for [`ShadowMap`](crate::ShadowMap): a light so far from the origin that f32 cannot tell its near
 ///   distance is served from where it can;
 /// - points on a ray from the light share their (u, v), and depth grows away from the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,11 +80,11 @@ impl Paraboloid {
     /// `q = (direction · r, near) / (far − near)`, with r the distance from the light and the direction in the frame of
     /// the map.
     #[must_use]
-    pub fn matrix(&self) -> Mat4 {
+    pub fn caster_matrix(&self) -> Mat4 {
         (self.paraboloid_from_world() * DMat4::from_translation(self.origin())).as_mat4()
     }
 
-    /// World space to q, see [`Self::matrix`].
+    /// World space to q, see [`Self::caster_matrix`].
     #[must_use]
     pub fn paraboloid_from_world(&self) -> DMat4 {
         let scale = self.range().recip();
@@ -177,7 +177,7 @@ impl Paraboloid {
     }
 
     /// Aliasing at a point: the side of a texel's footprint over the side of a pixel's, as for
-    /// [`Map::aliasing`](crate::Map::aliasing).
+    /// [`ShadowMap::aliasing`](crate::ShadowMap::aliasing).
     #[must_use]
     pub fn aliasing(&self, point: DVec3) -> Option<f64> {
         let pixel = self.pixel_size(point);
@@ -246,7 +246,7 @@ impl Paraboloid {
         self.far - self.near
     }
 
-    /// What positions are relative to in the f32 matrix, see [`Map::origin`](crate::Map::origin).
+    /// What positions are relative to in the f32 matrix, see [`ShadowMap::origin`](crate::ShadowMap::origin).
     #[must_use]
     pub fn origin(&self) -> DVec3 {
         self.settings.origin().of(&self.view, &self.light)

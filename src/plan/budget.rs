@@ -1,6 +1,6 @@
 //! What a plan may spend.
 
-use crate::error::{InputError, Problem, check};
+use crate::error::{InputError, InputErrorKind, check};
 use crate::filter::Filter;
 use crate::quality::DepthFormat;
 use crate::settings::Settings;
@@ -52,8 +52,8 @@ impl Budget {
     /// Names `"aliasing"` when it is not a positive number.
     pub fn with_aliasing(self, aliasing: f64) -> Result<Self, InputError> {
         match aliasing.is_finite() {
-            false => check::fail("aliasing", Problem::NotFinite),
-            true if aliasing < 1e-3 => check::fail("aliasing", Problem::TooSmall),
+            false => check::fail("aliasing", InputErrorKind::NotFinite),
+            true if aliasing < 1e-3 => check::fail("aliasing", InputErrorKind::TooSmall),
             true => Ok(Self { aliasing, ..self }),
         }
     }

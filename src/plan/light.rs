@@ -9,7 +9,7 @@ use super::{Kind, LightPlan, Pass, Projection};
 use crate::convex::Plane;
 use crate::filter::Filter;
 use crate::fit::{Empty, Outcome};
-use crate::focus::{Focus, Form};
+use crate::focus::{Focus, FocusForm};
 use crate::light::Light;
 use crate::scene::{Aabb, Scene};
 use crate::second_depth::DepthTest;
@@ -110,22 +110,22 @@ impl Planner<'_> {
     pub(super) fn plan(&self, light: &Light, reach: &mut Reach, casters: &mut Vec<u32>) -> LightPlan {
         reach.gather(self.seen, self.objects, &loosened(&light.planes(), self.objects.extent));
         if reach.receivers.is_empty() {
-            return LightPlan::nothing(Reason::NothingVisible);
+            return LightPlan::nothing(Reason::NoReceivers);
         }
         if reach.casters.is_empty() {
-            return LightPlan::nothing(Reason::NothingCasts);
+            return LightPlan::nothing(Reason::NoCasters);
         }
         let scene = Scene::of_checked(&reach.casters, &reach.receivers);
         let focus = Focus::new(&self.seen.view, light, &scene);
         let mut points = points(&focus, &reach.receivers);
         if points.is_empty() {
-            points.extend(focus.visible().vertices());
+            points.extend(focus.receiver_volume().vertices());
         }
         let mut reasons = Vec::new();
         match self.choose(&focus, &points, reach, &mut reasons) {
             Ok(candidate) => self.finish(&focus, candidate, reach, casters, reasons),
-            Err(Empty::NothingVisible) => LightPlan::nothing(Reason::NothingVisible),
-            Err(Empty::NothingCasts) => LightPlan::nothing(Reason::NothingCasts),
+            Err(Empty::NoReceivers) => LightPlan::nothing(Reason::NoReceivers),
+            Err(Empty::NoCasters) => LightPlan::nothing(Reason::NoCasters),
         }
     }
 
@@ -209,7 +209,7 @@ impl Planner<'_> {
         let (warped, why) = match wanted {
             Warp::Perspective => {
                 let unshifted = fit(wanted, Shift::None)?;
-                let shifted = fit(wanted, Shift::Back(Form::Paper))?;
+                let shifted = fit(wanted, Shift::Back(FocusForm::ViewHull))?;
                 let (Some(unshifted), Some(shifted)) = (unshifted, shifted) else { return Ok(Some(uniform)) };
                 let times = shifted.times(&unshifted);
                 if times * SAME < 1.0 {
@@ -252,7 +252,7 @@ impl Planner<'_> {
             }
         }
         let Some(size) = passes.iter().map(Pass::map_size).max() else {
-            return LightPlan::nothing(Reason::NothingCasts);
+            return LightPlan::nothing(Reason::NoCasters);
         };
         if kind == Kind::CubeFaces {
             reasons.push(Reason::Faces(passes.len() as u32));
@@ -267,13 +267,13 @@ impl Planner<'_> {
         }
         let filter = match self.budget.filter() {
             _ if aliasing <= HIDDEN => Filter::Nearest,
-            Filter::PercentageCloser(3..) if aliasing <= BLENDED => Filter::Hardware,
+            Filter::Pcf(3..) if aliasing <= BLENDED => Filter::Hardware2x2,
             widest => widest,
         };
         let (test, virtual_samples) = made_of.test(kind, 2.0 * filter.reach() * aliasing, &mut reasons);
         reasons.push(match filter {
             Filter::Nearest if aliasing <= HIDDEN => Reason::TexelsHidden(aliasing),
-            Filter::Hardware if aliasing <= BLENDED => Reason::TexelsBlend(aliasing),
+            Filter::Hardware2x2 if aliasing <= BLENDED => Reason::TexelsBlend(aliasing),
             _ => Reason::TexelsShow(aliasing),
         });
         if test == DepthTest::First {
@@ -296,9 +296,9 @@ impl Planner<'_> {
         let body = match &projection {
             Projection::Face(_, map) => {
                 let scene = Scene::of_checked(boxes, receivers);
-                Focus::new(&self.seen.view, &map.light, &scene).body(Form::Tight)
+                Focus::new(&self.seen.view, &map.light, &scene).caster_volume(FocusForm::ReceiverHull)
             }
-            _ => focus.body(Form::Tight),
+            _ => focus.caster_volume(FocusForm::ReceiverHull),
         };
         let half_space = match &projection {
             Projection::Paraboloid(paraboloid) => loosened(&[paraboloid.clip_plane()], self.objects.extent),
@@ -330,7 +330,7 @@ struct MadeOf {
 impl MadeOf {
     fn include(&mut self, object: &Object) {
         match object.surface {
-            Surface::Mesh(Solidity::Solid | Solidity::InsideOut) => {}
+            Surface::Mesh(Solidity::Watertight | Solidity::Inverted) => {}
             Surface::Mesh(Solidity::Open) => self.curved_sheets = true,
             Surface::FlatSheets => self.flat_sheets = true,
             Surface::Points => self.points = true,

@@ -12,7 +12,7 @@ use crate::bias::DepthBias;
 use crate::cube::CubeFace;
 use crate::filter::Filter;
 use crate::light::Light;
-use crate::map::Map;
+use crate::map::ShadowMap;
 use crate::paraboloid::Paraboloid;
 use crate::quality::DepthFormat;
 use crate::second_depth::DepthTest;
@@ -32,10 +32,12 @@ pub use reason::Reason;
 /// ```
 /// # fn main() -> Result<(), shadowfit::InputError> {
 /// use shadowfit::glam::Vec3;
-/// use shadowfit::{Aabb, Budget, Light, Object, Objects, Projection, Settings, Solidity, Surface, View, plan};
+/// use shadowfit::{
+///     Aabb, Light, Settings, View, mesh::Solidity, plan::{Budget, Object, Objects, Projection, Surface, plan},
+/// };
 ///
 /// let ground = Object::new(Aabb::new(Vec3::new(-50.0, -0.1, -50.0), Vec3::new(50.0, 0.0, 50.0)));
-/// let tower = Object { surface: Surface::Mesh(Solidity::Solid), ..Object::new(Aabb::new(Vec3::new(2.0, 0.0, -12.0), Vec3::new(4.0, 9.0, -10.0))) };
+/// let tower = Object { surface: Surface::Mesh(Solidity::Watertight), ..Object::new(Aabb::new(Vec3::new(2.0, 0.0, -12.0), Vec3::new(4.0, 9.0, -10.0))) };
 /// let objects = Objects::new(&[Object { casts: false, ..ground }, tower])?;
 /// let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 500.0)?;
 /// let lights = [Light::directional((0.4, 1.0, 0.2))?, Light::point((3.0, 4.0, 40.0), 0.1, 6.0)?];
@@ -47,7 +49,7 @@ pub use reason::Reason;
 ///     }
 ///     for pass in light.passes() {
 ///         if let Projection::Frustum(map) = pass.projection() {
-///             println!("draw {:?} with {}", plan.casters(pass), map.matrix());
+///             println!("draw {:?} with {}", plan.casters(pass), map.caster_matrix());
 ///         }
 ///     }
 /// }
@@ -200,7 +202,7 @@ impl LightPlan {
         self.test
     }
 
-    /// Whether its maps are read by virtual samples, see [`TangentPlane`](crate::TangentPlane).
+    /// Whether its maps are read by virtual samples, see [`TangentPlane`](crate::depth::TangentPlane).
     #[must_use]
     pub const fn virtual_samples(&self) -> bool {
         self.virtual_samples
@@ -241,9 +243,9 @@ impl LightPlan {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
     /// A matrix.
-    Frustum(Map),
+    Frustum(ShadowMap),
     /// A matrix, for what lies in this face of the cube around the light.
-    Face(CubeFace, Map),
+    Face(CubeFace, ShadowMap),
     /// A paraboloid, for what lies in its hemisphere.
     Paraboloid(Paraboloid),
 }

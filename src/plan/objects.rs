@@ -1,9 +1,9 @@
 //! The scene as the planner wants it: objects with bounds, and what they are made of.
 
 use super::groups::Groups;
-use crate::error::{InputError, Problem, check};
+use crate::error::{InputError, InputErrorKind, check};
 use crate::scene::{Aabb, checked_box, of_boxes};
-use crate::solidity::{Sheet, Solidity, SolidityReport};
+use crate::solidity::{OpenShape, Solidity, SolidityReport};
 use glam::DVec3;
 use std::vec::Vec;
 
@@ -29,7 +29,7 @@ impl Default for Surface {
 impl From<&SolidityReport> for Surface {
     fn from(report: &SolidityReport) -> Self {
         match report.sheet {
-            Some(Sheet { is_flat: true, .. }) => Self::FlatSheets,
+            Some(OpenShape { is_flat: true, .. }) => Self::FlatSheets,
             _ => Self::Mesh(report.solidity),
         }
     }
@@ -85,7 +85,7 @@ impl Objects {
     pub fn new(objects: &[Object]) -> Result<Self, InputError> {
         const FIELD: &str = "objects";
         if u32::try_from(objects.len()).is_err() {
-            return check::fail(FIELD, Problem::TooMany);
+            return check::fail(FIELD, InputErrorKind::TooMany);
         }
         let mut extent = DVec3::ZERO;
         for (index, object) in objects.iter().enumerate() {
@@ -97,7 +97,7 @@ impl Objects {
             }
             let longest = object.longest_edge;
             if longest.is_nan() || longest < 0.0 {
-                let problem = if longest.is_nan() { Problem::NotFinite } else { Problem::TooSmall };
+                let problem = if longest.is_nan() { InputErrorKind::NotFinite } else { InputErrorKind::TooSmall };
                 let error = InputError { component: Some("longest_edge"), ..InputError::new(FIELD, problem) };
                 return Err(error.got(longest.into()).of_list(FIELD, index));
             }

@@ -55,7 +55,7 @@ impl Planner<'_> {
         let faces = self.sized(|size, _| Ok(self.faces(focus, points, size, reach)), &mut ignored)?;
         let paraboloids = self.sized(|size, _| self.paraboloids(focus, points, size), &mut ignored)?;
         let paraboloids = match (faces, paraboloids) {
-            (None, None) => return Err(Empty::NothingCasts),
+            (None, None) => return Err(Empty::NoCasters),
             (Some(faces), None) => return Ok(faces),
             (Some(faces), Some(paraboloids)) if paraboloids.projections.len() >= faces.projections.len() => {
                 return Ok(faces);

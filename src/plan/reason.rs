@@ -8,9 +8,9 @@ use core::fmt;
 #[non_exhaustive]
 pub enum Reason {
     /// No map: nothing that receives is in view and lit.
-    NothingVisible,
+    NoReceivers,
     /// No map: nothing casts on what is in view and lit.
-    NothingCasts,
+    NoCasters,
     /// One uniform map: it is fine enough.
     UniformEnough,
     /// One uniform map: the settings want no warp.
@@ -68,8 +68,8 @@ pub enum Reason {
 impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NothingVisible => f.write_str("no map: nothing in view can be lit"),
-            Self::NothingCasts => f.write_str("no map: nothing can cast on what is in view and lit"),
+            Self::NoReceivers => f.write_str("no map: nothing in view can be lit"),
+            Self::NoCasters => f.write_str("no map: nothing can cast on what is in view and lit"),
             Self::UniformEnough => f.write_str("uniform: fine enough without a warp"),
             Self::NoWarpWanted => f.write_str("uniform: the settings want no warp"),
             Self::WarpNoFiner(part) => {

@@ -1,6 +1,6 @@
 //! Axis-aligned boxes, as renderers keep them for their objects, in single and in double precision.
 
-use crate::error::{Expected, Hint, InputError, MAX_COORDINATE, Problem, check};
+use crate::error::{Expected, Hint, InputError, InputErrorKind, MAX_COORDINATE, check};
 use crate::numbers::vector;
 use glam::{DVec3, Vec3};
 
@@ -197,7 +197,8 @@ pub(crate) fn checked_box(min: DVec3, max: DVec3) -> Result<Option<(DVec3, DVec3
         if least > most {
             let field = ["min.x", "min.y", "min.z"][axis];
             let expected = Expected::AtLeast { field, value: least };
-            let error = InputError::new("max", Problem::OutOfOrder).of_axis(axis).got(most).expected(expected);
+            let error =
+                InputError::new("max", InputErrorKind::OutOfOrder).of_axis(axis).got(most).expected(expected);
             return Err(error.hinted(min.cmpge(max).all().then_some(Hint::Swapped)));
         }
     }

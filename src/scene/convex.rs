@@ -11,7 +11,7 @@ use glam::DVec3;
 /// Made once where the scene changes and borrowed by [`Scene::from_convex`](crate::Scene::from_convex) for every fit.
 ///
 /// ```
-/// use shadowfit::{ConvexScene, Empty, Light, Outcome, Plane, Scene, Settings, View, fit};
+/// use shadowfit::{Empty, Light, Outcome, Scene, Settings, View, fit, focus::Plane, input::ConvexScene};
 ///
 /// let view = View::perspective((0.0, 1.7, 9.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 50.0)?;
 /// let sun = Light::directional((0.4, 1.0, 0.2))?;
@@ -20,7 +20,7 @@ use glam::DVec3;
 /// assert!(fit(&view, &sun, &Scene::from_convex(&room), &Settings::default()).map().is_some());
 /// let none = ConvexScene::new((-4.0, 0.0, -4.0), (4.0, 5.0, 4.0), &[Plane::from([0.0, 1.0, 0.0, -9.0])])?;
 /// let outcome = fit(&view, &sun, &Scene::from_convex(&none), &Settings::default());
-/// assert_eq!(outcome, Outcome::Empty(Empty::NothingVisible));
+/// assert_eq!(outcome, Outcome::Empty(Empty::NoReceivers));
 /// # Ok::<(), shadowfit::InputError>(())
 /// ```
 #[derive(Clone, Debug)]

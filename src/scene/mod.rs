@@ -29,7 +29,7 @@ use glam::DVec3;
 /// let sun = Light::directional((0.4, 1.0, 0.2))?;
 /// let ground = [Aabb::new([-200.0, 0.0, -200.0], [200.0, 0.0, 200.0])];
 /// let outcome = fit(&view, &sun, &Scene::new(&[], &ground)?, &Settings::default());
-/// assert_eq!(outcome, Outcome::Empty(Empty::NothingCasts));
+/// assert_eq!(outcome, Outcome::Empty(Empty::NoCasters));
 ///
 /// // The same ground six million units away, as boxes about a point next to the eye.
 /// let away = [6e6, 0.0, 0.0];

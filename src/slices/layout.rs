@@ -1,13 +1,13 @@
 //! Where the maps of slices lie: in layers of an array, or side by side.
 
-use crate::map::Map;
-use crate::offset::Offset;
+use crate::map::ShadowMap;
+use crate::offset::ReceiverOffset;
 use glam::{DMat4, DVec2, Mat4};
 
 /// How the maps of slices are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Layout {
+pub enum CascadeLayout {
     /// Each in a layer of an array of textures.
     #[default]
     Array,
@@ -18,7 +18,7 @@ pub enum Layout {
 /// The size of a texture for maps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Extent {
+pub struct TextureExtent {
     /// Texels across.
     pub width: u32,
     /// Texels down.
@@ -30,7 +30,7 @@ pub struct Extent {
 /// The part of a texture that a map lies in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Tile {
+pub struct AtlasTile {
     /// The layer.
     pub layer: u32,
     /// The texel of its corner with the least coordinates: what the viewport that the map is drawn through begins at.
@@ -38,10 +38,10 @@ pub struct Tile {
     /// Texels across and down.
     pub size: (u32, u32),
     /// The texture.
-    pub extent: Extent,
+    pub extent: TextureExtent,
 }
 
-impl Layout {
+impl CascadeLayout {
     /// Tiles across and down for so many maps of a size.
     fn grid(self, maps: u32, (width, height): (u32, u32)) -> (u32, u32) {
         match self {
@@ -56,27 +56,27 @@ impl Layout {
     }
 
     /// The texture for so many maps of so many texels across and down.
-    pub(super) fn extent(self, maps: u32, size: (u32, u32)) -> Extent {
+    pub(super) fn extent(self, maps: u32, size: (u32, u32)) -> TextureExtent {
         let (across, down) = self.grid(maps, size);
         let layers = match self {
             Self::Array => maps,
             Self::Atlas => maps.min(1),
         };
-        Extent { width: across * size.0, height: down * size.1, layers }
+        TextureExtent { width: across * size.0, height: down * size.1, layers }
     }
 
     /// The tile of one of so many maps.
-    pub(super) fn tile(self, index: u32, maps: u32, size: (u32, u32)) -> Tile {
+    pub(super) fn tile(self, index: u32, maps: u32, size: (u32, u32)) -> AtlasTile {
         let (across, _) = self.grid(maps, size);
         let (layer, column, row) = match self {
             Self::Array => (index, 0, 0),
             Self::Atlas => (0, index % across, index / across),
         };
-        Tile { layer, corner: (column * size.0, row * size.1), size, extent: self.extent(maps, size) }
+        AtlasTile { layer, corner: (column * size.0, row * size.1), size, extent: self.extent(maps, size) }
     }
 }
 
-impl Tile {
+impl AtlasTile {
     /// The scale and the offset that take texture coordinates in the map to those in the texture: `place * scale +
     /// offset`.
     #[must_use]
@@ -85,12 +85,12 @@ impl Tile {
         (texels(self.size) / whole, texels(self.corner) / whole)
     }
 
-    /// [`Map::texture_matrix`], or [`Map::texture_matrix_with`] an offset, with its texture coordinates in the texture.
+    /// [`ShadowMap::receiver_matrix`], or [`ShadowMap::receiver_matrix_with`] an offset, with its texture coordinates in the texture.
     ///
     /// Rounding of its last row moves a place by as much of the texture as it would of the map: in texels, up to 2c + 1
     /// times as far in column or row c.
     #[must_use]
-    pub fn texture_matrix(&self, map: &Map, offset: Option<&Offset>) -> Mat4 {
+    pub fn receiver_matrix(&self, map: &ShadowMap, offset: Option<&ReceiverOffset>) -> Mat4 {
         let map_from_world = match offset {
             Some(offset) => map.texture_from_world_with(offset),
             None => map.texture_from_world(),

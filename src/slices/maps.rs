@@ -1,24 +1,24 @@
 //! The maps of slices, and what they cost and give together.
 
-use super::layout::{Extent, Layout, Tile};
-use super::{Slice, Slices};
+use super::layout::{AtlasTile, CascadeLayout, TextureExtent};
+use super::{Cascade, Cascades};
 use crate::fit::{Empty, Outcome};
-use crate::map::{Map, Report};
+use crate::map::{Report, ShadowMap};
 use crate::settings::Settings;
 
 /// What came of the fits of all slices.
 #[derive(Clone, Debug)]
-pub struct SliceMaps<'s, 'a> {
-    pub(super) slices: &'s Slices<'a>,
-    pub(super) outcomes: [Outcome; Slices::MAX],
+pub struct CascadeMaps<'s, 'a> {
+    pub(super) slices: &'s Cascades<'a>,
+    pub(super) outcomes: [Outcome; Cascades::MAX],
     pub(super) settings: Settings,
 }
 
 /// What the maps of slices cost and give together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct SlicesReport {
-    /// Slices.
+pub struct CascadesReport {
+    /// Cascades.
     pub slices: usize,
     /// How many of them have a map.
     pub maps: usize,
@@ -28,7 +28,7 @@ pub struct SlicesReport {
     pub nothing_casts: usize,
     /// In how many the light stands among what is visible, so that they need something else.
     pub surrounded: usize,
-    /// Texels of all maps together. In an atlas some tiles may be left over, see [`SliceMaps::extent`].
+    /// Texels of all maps together. In an atlas some tiles may be left over, see [`CascadeMaps::extent`].
     pub texels: u64,
     /// The longest side of a texel's footprint in any slice, in world units; 0 without maps.
     pub texel: f64,
@@ -38,10 +38,10 @@ pub struct SlicesReport {
     pub worst: Option<usize>,
 }
 
-impl<'a> SliceMaps<'_, 'a> {
+impl<'a> CascadeMaps<'_, 'a> {
     /// The slices that were fitted.
     #[must_use]
-    pub fn slices(&self) -> &[Slice<'a>] {
+    pub fn slices(&self) -> &[Cascade<'a>] {
         self.slices
     }
 
@@ -58,7 +58,7 @@ impl<'a> SliceMaps<'_, 'a> {
     }
 
     /// The maps, each with the index of its slice.
-    pub fn maps(&self) -> impl Iterator<Item = (usize, &Map)> {
+    pub fn maps(&self) -> impl Iterator<Item = (usize, &ShadowMap)> {
         self.outcomes().iter().enumerate().filter_map(|(index, outcome)| outcome.map().map(|map| (index, map)))
     }
 
@@ -70,13 +70,13 @@ impl<'a> SliceMaps<'_, 'a> {
 
     /// What the maps cost and give together.
     #[must_use]
-    pub fn report(&self) -> SlicesReport {
+    pub fn report(&self) -> CascadesReport {
         let count = |outcome: Outcome| self.outcomes().iter().filter(|one| **one == outcome).count();
         let empty = |why: Empty| count(Outcome::Empty(why));
-        let (nothing_visible, nothing_casts) = (empty(Empty::NothingVisible), empty(Empty::NothingCasts));
+        let (nothing_visible, nothing_casts) = (empty(Empty::NoReceivers), empty(Empty::NoCasters));
         let (slices, maps) = (self.outcomes().len(), self.maps().count());
         let (width, height) = self.settings.map_sides();
-        let mut report = SlicesReport {
+        let mut report = CascadesReport {
             slices,
             maps,
             nothing_visible,
@@ -99,13 +99,13 @@ impl<'a> SliceMaps<'_, 'a> {
 
     /// The texture that holds all maps; without layers where there are none.
     #[must_use]
-    pub fn extent(&self, layout: Layout) -> Extent {
+    pub fn extent(&self, layout: CascadeLayout) -> TextureExtent {
         layout.extent(self.count(), self.settings.map_sides())
     }
 
     /// Where the map of a slice lies; `None` where it has none.
     #[must_use]
-    pub fn tile(&self, index: usize, layout: Layout) -> Option<Tile> {
+    pub fn tile(&self, index: usize, layout: CascadeLayout) -> Option<AtlasTile> {
         let place = self.maps().position(|(slice, _)| slice == index)?;
         Some(layout.tile(place as u32, self.count(), self.settings.map_sides()))
     }

@@ -5,10 +5,10 @@ mod maps;
 mod split;
 mod uniform;
 
-pub use layout::{Extent, Layout, Tile};
-pub use maps::{SliceMaps, SlicesReport};
-pub use split::{Cuts, Split};
-pub use uniform::SliceUniform;
+pub use layout::{AtlasTile, CascadeLayout, TextureExtent};
+pub use maps::{CascadeMaps, CascadesReport};
+pub use split::{CascadeSplits, SplitScheme};
+pub use uniform::CascadeUniform;
 
 use crate::bounds::{Interval, most};
 use crate::convex::Polyhedron;
@@ -45,32 +45,33 @@ use split::rounded;
 ///   it is as wrong as these are, and where that is much, a zone to blend in covers it.
 ///
 /// ```
-/// use shadowfit::{Cuts, Layout, Light, Scene, Settings, Slices, Split, View};
+/// use shadowfit::{Light, Scene, Settings, View};
+/// use shadowfit::cascades::{CascadeLayout, CascadeSplits, Cascades, SplitScheme};
 ///
 /// let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, f64::INFINITY)?;
 /// let sun = Light::directional((0.4, 1.0, 0.2))?;
 /// let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
 ///
-/// let cuts = Cuts::Visible { count: 4, split: Split::Blended(0.5) };
-/// let slices = Slices::new(&view, &sun, &scene, cuts, 0.1)?;
+/// let cuts = CascadeSplits::Visible { count: 4, split: SplitScheme::Practical(0.5) };
+/// let slices = Cascades::new(&view, &sun, &scene, cuts, 0.1)?;
 /// let maps = slices.fit(&Settings::default());
 /// for (index, map) in maps.maps() {
-///     println!("slice {index}, to depth {}: {}", slices[index].far, map.matrix());
+///     println!("slice {index}, to depth {}: {}", slices[index].far, map.caster_matrix());
 /// }
-/// println!("{:?}", maps.extent(Layout::Atlas));
+/// println!("{:?}", maps.extent(CascadeLayout::Atlas));
 /// # Ok::<(), shadowfit::InputError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Slices<'a> {
+pub struct Cascades<'a> {
     /// One at least; those past the number of slices are copies of the first.
-    slices: [Slice<'a>; Slices::MAX],
+    slices: [Cascade<'a>; Cascades::MAX],
     len: usize,
 }
 
 /// A part of a view between two depths.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
-pub struct Slice<'a> {
+pub struct Cascade<'a> {
     /// The depth before the eye where it begins, in world units.
     pub near: f64,
     /// The depth from which on the next slice is blended in; where it ends, if none is.
@@ -85,7 +86,7 @@ pub struct Slice<'a> {
 /// coordinates, their sum, and of the coordinates themselves.
 const DEPTH_ROUNDING: f64 = 8.0 / 16_777_216.0;
 
-impl<'a> Slices<'a> {
+impl<'a> Cascades<'a> {
     /// The most slices there can be.
     pub const MAX: usize = 8;
 
@@ -106,7 +107,7 @@ impl<'a> Slices<'a> {
         view: &View,
         light: &Light,
         scene: &Scene<'a>,
-        cuts: Cuts<'_>,
+        cuts: CascadeSplits<'_>,
         overlap: f64,
     ) -> Result<Self, InputError> {
         let overlap = check::part("overlap", overlap, 1.0)?;
@@ -114,14 +115,14 @@ impl<'a> Slices<'a> {
 
         // Made one after another: each begins where the one before has its next one blended in.
         let (mut near, mut begin) = (view.near(), view.near());
-        let mut cut_to = |far: f64, from: f64| -> Result<Slice<'a>, InputError> {
+        let mut cut_to = |far: f64, from: f64| -> Result<Cascade<'a>, InputError> {
             let is_last = far == view.far();
             let blend = if is_last { far } else { rounded(far - overlap * (far - from)).clamp(from, far) };
             let slack = if is_last { 0.0 } else { slack(view, far)? };
             // No finite plane may be farther than that.
             let end = (far + slack).min(view.far()).min(most(far, MAX_COORDINATE));
             let focus = Focus::new(&view.narrowed(begin, end)?, light, scene);
-            let slice = Slice { near, blend, far, focus };
+            let slice = Cascade { near, blend, far, focus };
             (near, begin) = (far, most(blend - slack, view.near()));
             Ok(slice)
         };
@@ -151,18 +152,18 @@ impl<'a> Slices<'a> {
 
     /// Fits a map for each slice that needs one, all with the same settings.
     #[must_use]
-    pub fn fit(&self, settings: &Settings) -> SliceMaps<'_, 'a> {
-        let mut outcomes = [Outcome::Empty(Empty::NothingVisible); Self::MAX];
+    pub fn fit(&self, settings: &Settings) -> CascadeMaps<'_, 'a> {
+        let mut outcomes = [Outcome::Empty(Empty::NoReceivers); Self::MAX];
         for (outcome, slice) in outcomes.iter_mut().zip(self.iter()) {
             *outcome = slice.focus.fit(settings);
         }
-        SliceMaps { slices: self, outcomes, settings: *settings }
+        CascadeMaps { slices: self, outcomes, settings: *settings }
     }
 }
 
-impl<'a> core::ops::Deref for Slices<'a> {
-    type Target = [Slice<'a>];
-    fn deref(&self) -> &[Slice<'a>] {
+impl<'a> core::ops::Deref for Cascades<'a> {
+    type Target = [Cascade<'a>];
+    fn deref(&self) -> &[Cascade<'a>] {
         &self.slices[..self.len]
     }
 }

@@ -1,8 +1,8 @@
 //! Where a view is cut into slices.
 
-use super::Slices;
+use super::Cascades;
 use crate::bounds::Interval;
-use crate::error::{Expected, InputError, MAX_COORDINATE, Problem, check};
+use crate::error::{Expected, InputError, InputErrorKind, MAX_COORDINATE, check};
 use crate::view::{Lens, View};
 
 /// How a range of depths is split: the cuts of Zhang, Sun, Xu & Lun, *Parallel-Split Shadow Maps for Large-scale Virtual
@@ -13,7 +13,7 @@ use crate::view::{Lens, View};
 /// ```text
 ///     Uniform          n + (f − n) i/k
 ///     Logarithmic      n (f/n)^(i/k)
-///     Blended(part)    part · logarithmic + (1 − part) · uniform
+///     Practical(part)    part · logarithmic + (1 − part) · uniform
 /// ```
 ///
 /// A pixel is as large as its depth, and a texel of a uniform map, under a light across the view, is as long as its slice:
@@ -26,37 +26,37 @@ use crate::view::{Lens, View};
 /// split: it is what all of these are for an orthographic view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Split {
+pub enum SplitScheme {
     /// Slices of one length.
     Uniform,
     /// Slices whose ends have one ratio.
     Logarithmic,
     /// Between the two, the practical split scheme: 0 for the uniform cuts, 1 for the logarithmic ones. What is next to
     /// the eye gets less than the logarithmic split gives it, which is mostly air.
-    Blended(f64),
+    Practical(f64),
 }
 
 /// Which cuts to make.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cuts<'a> {
+pub enum CascadeSplits<'a> {
     /// The depths between the nearest and the farthest of what is visible and lit, so that neither a far plane at
     /// infinity nor a near plane in the air before all that is seen matters. The cuts move with the view.
     ///
     /// Where these are so close to each other that f32 cannot tell the cuts apart, there are fewer slices.
     Visible {
-        /// How many slices, 1 to [`Slices::MAX`].
+        /// How many slices, 1 to [`Cascades::MAX`].
         count: usize,
         /// How they are split.
-        split: Split,
+        split: SplitScheme,
     },
     /// The depths between the view's own planes: the cuts stay where they are while the camera moves, as maps that must
     /// not shimmer need it. Shadows that end before the far plane do are those of a view
     /// [narrowed](View::narrowed) to that depth.
     View {
-        /// How many slices, 1 to [`Slices::MAX`].
+        /// How many slices, 1 to [`Cascades::MAX`].
         count: usize,
         /// How they are split.
-        split: Split,
+        split: SplitScheme,
     },
     /// At these depths, ascending, rounded to f32: one less than there are slices.
     At(&'a [f64]),
@@ -65,7 +65,7 @@ pub enum Cuts<'a> {
 /// The depths of cuts, ascending, each an f32.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Depths {
-    depths: [f64; Slices::MAX - 1],
+    depths: [f64; Cascades::MAX - 1],
     len: usize,
     /// Where the first slice that is cut begins.
     pub(super) near: f64,
@@ -78,12 +78,12 @@ impl core::ops::Deref for Depths {
     }
 }
 
-impl Cuts<'_> {
+impl CascadeSplits<'_> {
     /// The depths of the cuts of a view; `visible` finds the eye depths of what is visible, upside down where nothing is.
     pub(super) fn depths(&self, view: &View, visible: impl FnOnce() -> Interval) -> Result<Depths, InputError> {
         let (near, far) = (view.near(), view.far());
         match *self {
-            Cuts::Visible { count, split } => {
+            CascadeSplits::Visible { count, split } => {
                 split.check(count)?;
                 let range = visible();
                 // Corners of what is visible are off by a few roundings, and farther than any plane can be where both eye
@@ -91,17 +91,17 @@ impl Cuts<'_> {
                 let (near, far) = (range.min.max(near), range.max.min(far).min(MAX_COORDINATE));
                 Ok(split.depths(view.lens(), near, far, count))
             }
-            Cuts::View { count, split } => {
+            CascadeSplits::View { count, split } => {
                 split.check(count)?;
                 if count > 1 && far.is_infinite() {
-                    return check::fail("view", Problem::NotFinite);
+                    return check::fail("view", InputErrorKind::NotFinite);
                 }
                 Ok(split.depths(view.lens(), near, far, count))
             }
-            Cuts::At(depths) => {
+            CascadeSplits::At(depths) => {
                 let mut cuts = Depths::none(near);
-                if depths.len() >= Slices::MAX {
-                    return check::fail("cuts", Problem::TooMany);
+                if depths.len() >= Cascades::MAX {
+                    return check::fail("cuts", InputErrorKind::TooMany);
                 }
                 for (index, &depth) in depths.iter().enumerate() {
                     let at = |error: InputError| error.of_list("cuts", index);
@@ -109,13 +109,13 @@ impl Cuts<'_> {
                     let between = Expected::Between { above: near, below: far };
                     let depth = rounded(check::coordinate("cuts", depth).map_err(at)?);
                     if depth <= near {
-                        return Err(refuse(Problem::TooSmall).expected(between));
+                        return Err(refuse(InputErrorKind::TooSmall).expected(between));
                     }
                     if depth >= far {
-                        return Err(refuse(Problem::TooLarge).expected(between));
+                        return Err(refuse(InputErrorKind::TooLarge).expected(between));
                     }
                     if !cuts.push(depth) {
-                        return Err(refuse(Problem::OutOfOrder));
+                        return Err(refuse(InputErrorKind::OutOfOrder));
                     }
                 }
                 Ok(cuts)
@@ -126,7 +126,7 @@ impl Cuts<'_> {
 
 impl Depths {
     const fn none(near: f64) -> Self {
-        Self { depths: [0.0; Slices::MAX - 1], len: 0, near }
+        Self { depths: [0.0; Cascades::MAX - 1], len: 0, near }
     }
 
     /// Adds a cut, if it lies beyond those before.
@@ -143,12 +143,12 @@ impl Depths {
     }
 }
 
-impl Split {
+impl SplitScheme {
     fn check(self, count: usize) -> Result<(), InputError> {
-        check::within("count", count as f64, Expected::Within { least: 1.0, most: Slices::MAX as f64 })?;
+        check::within("count", count as f64, Expected::Within { least: 1.0, most: Cascades::MAX as f64 })?;
         match self {
             Self::Uniform | Self::Logarithmic => Ok(()),
-            Self::Blended(part) => check::part("split", part, 1.0).map(|_| ()),
+            Self::Practical(part) => check::part("split", part, 1.0).map(|_| ()),
         }
     }
 
@@ -170,7 +170,7 @@ impl Split {
         match (lens, self) {
             (Lens::Orthographic, _) | (_, Self::Uniform) => uniform(),
             (Lens::Perspective, Self::Logarithmic) => logarithmic(),
-            (Lens::Perspective, Self::Blended(part)) => part * logarithmic() + (1.0 - part) * uniform(),
+            (Lens::Perspective, Self::Practical(part)) => part * logarithmic() + (1.0 - part) * uniform(),
         }
     }
 }

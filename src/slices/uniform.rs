@@ -1,39 +1,39 @@
 //! What a shader needs to know of slices, as one block of memory.
 
-use super::{Layout, SliceMaps, Slices};
-use crate::map::Map;
-use crate::offset::Offset;
+use super::{CascadeLayout, CascadeMaps, Cascades};
+use crate::map::ShadowMap;
+use crate::offset::ReceiverOffset;
 
-/// What a shader needs to know of slices: `struct shadowfit_Slices` of `wgsl::SLICES`, byte for byte.
+/// What a shader needs to know of slices: `struct shadowfit_Slices` of `wgsl::CASCADES`, byte for byte.
 ///
 /// Slices without a map have the layer −1, and so have those past the last. What is said of them besides is zero, but for
 /// depths: the last slice, and those past it, end at the largest f32.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
-pub struct SliceUniform {
+pub struct CascadeUniform {
     /// Columns of the matrix from positions to texture coordinates in the texture that holds all maps, and to the depth to
     /// compare there, for each slice.
-    pub texture_from_origin: [[f32; 16]; Slices::MAX],
+    pub texture_from_origin: [[f32; 16]; Cascades::MAX],
     /// The least and the largest texture coordinates inside the border of each slice's map.
-    pub inner: [[f32; 4]; Slices::MAX],
+    pub inner: [[f32; 4]; Cascades::MAX],
     /// The depth before the eye where each slice ends.
-    pub far: [f32; Slices::MAX],
+    pub far: [f32; Cascades::MAX],
     /// The depth from which on the next slice is blended in.
-    pub blend: [f32; Slices::MAX],
+    pub blend: [f32; Cascades::MAX],
     /// The layer of each slice's map; −1 for none.
-    pub layer: [i32; Slices::MAX],
+    pub layer: [i32; Cascades::MAX],
 }
 
-impl SliceUniform {
+impl CascadeUniform {
     /// The size of the block in bytes.
     pub const SIZE: usize = size_of::<Self>();
 
     const NONE: Self = Self {
-        texture_from_origin: [[0.0; 16]; Slices::MAX],
-        inner: [[0.0; 4]; Slices::MAX],
-        far: [f32::MAX; Slices::MAX],
-        blend: [f32::MAX; Slices::MAX],
-        layer: [-1; Slices::MAX],
+        texture_from_origin: [[0.0; 16]; Cascades::MAX],
+        inner: [[0.0; 4]; Cascades::MAX],
+        far: [f32::MAX; Cascades::MAX],
+        blend: [f32::MAX; Cascades::MAX],
+        layer: [-1; Cascades::MAX],
     };
 
     /// The block as bytes, little-endian as every GPU has it.
@@ -50,14 +50,18 @@ impl SliceUniform {
     }
 }
 
-impl SliceMaps<'_, '_> {
+impl CascadeMaps<'_, '_> {
     /// What a shader needs to know of the slices and of their maps, kept as `layout` says.
     ///
     /// `offset` says of each map what its receivers are offset by in the test, if they are, see
-    /// [`Map::texture_matrix_with`].
+    /// [`ShadowMap::receiver_matrix_with`].
     #[must_use]
-    pub fn uniform(&self, layout: Layout, mut offset: impl FnMut(&Map) -> Option<Offset>) -> SliceUniform {
-        let mut uniform = SliceUniform::NONE;
+    pub fn uniform(
+        &self,
+        layout: CascadeLayout,
+        mut offset: impl FnMut(&ShadowMap) -> Option<ReceiverOffset>,
+    ) -> CascadeUniform {
+        let mut uniform = CascadeUniform::NONE;
         // The last slice has no end, and nothing to blend in.
         let cut = self.slices.iter().take(self.slices.len() - 1);
         for (slice, (far, blend)) in cut.zip(uniform.far.iter_mut().zip(&mut uniform.blend)) {
@@ -66,7 +70,7 @@ impl SliceMaps<'_, '_> {
         for (index, map) in self.maps() {
             let Some(tile) = self.tile(index, layout) else { continue };
             let (least, most) = tile.inner(self.settings.border());
-            uniform.texture_from_origin[index] = tile.texture_matrix(map, offset(map).as_ref()).to_cols_array();
+            uniform.texture_from_origin[index] = tile.receiver_matrix(map, offset(map).as_ref()).to_cols_array();
             uniform.inner[index] = [least.x, least.y, most.x, most.y].map(|place| place as f32);
             uniform.layer[index] = tile.layer as i32;
         }

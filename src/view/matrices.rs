@@ -4,7 +4,7 @@ use super::{Axes, Lens, View};
 use crate::bounds::most;
 use crate::clip_space::ClipSpace;
 use crate::decode::{self, EyeAxes, Frame};
-use crate::error::{InputError, Problem, check};
+use crate::error::{InputError, InputErrorKind, check};
 use crate::frustum::{self, Rows};
 use crate::numbers::IntoMatrix;
 use glam::DMat4;
@@ -32,13 +32,13 @@ impl View {
     ///
     /// # Errors
     ///
-    /// - The matrix that is not finite, or that takes space to a plane or less ([`Problem::Singular`]); `"clip_from_eye"`
-    ///   where the product is neither perspective nor orthographic with a positive w ([`Problem::NotAProjection`]).
-    /// - The one that looks transposed ([`Problem::LooksTransposed`]): row vectors multiply from the other side.
+    /// - The matrix that is not finite, or that takes space to a plane or less ([`InputErrorKind::Singular`]); `"clip_from_eye"`
+    ///   where the product is neither perspective nor orthographic with a positive w ([`InputErrorKind::NotAProjection`]).
+    /// - The one that looks transposed ([`InputErrorKind::LooksTransposed`]): row vectors multiply from the other side.
     /// - `"clip"`, where the depth range has near and far exchanged, and does not in the reversed convention
-    ///   ([`Problem::LooksReversed`]).
+    ///   ([`InputErrorKind::LooksReversed`]).
     /// - `"near"`, `"far"`, `"frame"` or `"eye"` where what the matrices encode is out of order or out of range, and `"near"`
-    ///   where an oblique near plane leaves nothing of the view ([`Problem::OutsideView`]).
+    ///   where an oblique near plane leaves nothing of the view ([`InputErrorKind::OutsideView`]).
     pub fn from_matrices<A, B>(
         eye_from_world: impl IntoMatrix<A>,
         clip_from_eye: impl IntoMatrix<B>,
@@ -48,10 +48,10 @@ impl View {
         decode::finite("eye_from_world", &eye_from_world)?;
         decode::finite("clip_from_eye", &clip_from_eye)?;
         if decode::is_transposed_affine(&eye_from_world) {
-            return check::fail("eye_from_world", Problem::LooksTransposed);
+            return check::fail("eye_from_world", InputErrorKind::LooksTransposed);
         }
         if decode::is_transposed_perspective(&clip_from_eye) {
-            return check::fail("clip_from_eye", Problem::LooksTransposed);
+            return check::fail("clip_from_eye", InputErrorKind::LooksTransposed);
         }
         or_reversed(clip, |clip| Self::of_matrices(&eye_from_world, &clip_from_eye, clip))
     }
@@ -59,7 +59,7 @@ impl View {
     fn of_matrices(eye_from_world: &DMat4, clip_from_eye: &DMat4, clip: ClipSpace) -> Result<Self, InputError> {
         let (Some(axes), Some(frame)) = (EyeAxes::of(eye_from_world), Frame::of(clip_from_eye, clip)) else {
             let Some(eye) = decode::origin(eye_from_world) else {
-                return check::fail("eye_from_world", Problem::Singular);
+                return check::fail("eye_from_world", InputErrorKind::Singular);
             };
             let rounding = most(frustum::rounding(eye_from_world), frustum::rounding(clip_from_eye));
             let clip_from_world = *clip_from_eye * *eye_from_world;
@@ -96,13 +96,13 @@ impl View {
     ///
     /// # Errors
     ///
-    /// - `"clip_from_world"` where it is not finite, takes space to a plane or less ([`Problem::Singular`]), or is
-    ///   neither perspective nor orthographic with a positive w ([`Problem::NotAProjection`]); or looks transposed
-    ///   ([`Problem::LooksTransposed`]).
+    /// - `"clip_from_world"` where it is not finite, takes space to a plane or less ([`InputErrorKind::Singular`]), or is
+    ///   neither perspective nor orthographic with a positive w ([`InputErrorKind::NotAProjection`]); or looks transposed
+    ///   ([`InputErrorKind::LooksTransposed`]).
     /// - `"clip"`, where the depth range has near and far exchanged, and does not in the reversed convention
-    ///   ([`Problem::LooksReversed`]).
+    ///   ([`InputErrorKind::LooksReversed`]).
     /// - `"near"`, `"far"`, `"frame"` or `"eye"` where what the matrix encodes is out of order or out of range, and `"near"`
-    ///   where an oblique near plane leaves nothing of the view ([`Problem::OutsideView`]).
+    ///   where an oblique near plane leaves nothing of the view ([`InputErrorKind::OutsideView`]).
     pub fn from_clip_from_world<C>(
         clip_from_world: impl IntoMatrix<C>,
         clip: ClipSpace,
@@ -119,7 +119,7 @@ impl View {
         if !is_upright(&view) && !decode::has_depth_in_units(&matrix) {
             let transposed = matrix.transpose();
             if decode::has_depth_in_units(&transposed) && is_upright(&of(&transposed)) {
-                return check::fail(FIELD, Problem::LooksTransposed);
+                return check::fail(FIELD, InputErrorKind::LooksTransposed);
             }
         }
         view
@@ -136,7 +136,7 @@ fn or_reversed(clip: ClipSpace, of: impl Fn(ClipSpace) -> Result<View, InputErro
     of(clip).or_else(|error| {
         let is_depth = matches!(error.field, "near" | "far");
         if is_depth && of(clip.reversed()).is_ok() {
-            check::fail("clip", Problem::LooksReversed)
+            check::fail("clip", InputErrorKind::LooksReversed)
         } else {
             Err(error)
         }

@@ -1,6 +1,6 @@
 //! A view as it is stored: the same numbers, checked again when they are read.
 
-use super::{DVec2, DVec3, InputError, Lens, Plane, Problem, check};
+use super::{DVec2, DVec3, InputError, InputErrorKind, Lens, Plane, check};
 
 #[derive(serde::Deserialize)]
 pub(super) struct View {
@@ -27,11 +27,11 @@ impl TryFrom<View> for super::View {
         let square = [right.dot(up) - lean, up.dot(forward), forward.dot(right)];
         let is_image = lean.abs() < 1.0 && 1.0 - lean * lean > 1e-12;
         if !(is_image && units.iter().chain(&square).all(|error| error.abs() < 1e-9)) {
-            return check::fail("forward", Problem::NotOrthonormal);
+            return check::fail("forward", InputErrorKind::NotOrthonormal);
         }
         for (field, cut) in [("near_cut", near_cut), ("far_cut", far_cut)] {
             if cut.is_some_and(|plane| !plane.to_row().is_finite()) {
-                return check::fail(field, Problem::NotFinite);
+                return check::fail(field, InputErrorKind::NotFinite);
             }
         }
         Self { eye, right, up, forward, lean, lens, frame_min, frame_max, near, far, near_cut, far_cut }.checked()

@@ -1,7 +1,7 @@
 //! The frame of a perspective camera as headset runtimes give it.
 
 use crate::angle;
-use crate::error::{InputError, Problem, check};
+use crate::error::{InputError, InputErrorKind, check};
 
 /// The four sides of a perspective image: tangents of the angles between each and the view's axis, signed. Left and bottom
 /// are negative where the axis is in the image.
@@ -25,7 +25,7 @@ impl Tangents {
     /// From signed angles in radians, as OpenXR's `XrFovf` has them (`angleLeft`, `angleRight`, `angleDown`, `angleUp`).
     ///
     /// ```
-    /// use shadowfit::Tangents;
+    /// use shadowfit::input::Tangents;
     ///
     /// let quarter = std::f64::consts::FRAC_PI_4;
     /// let tangents = Tangents::from_angles(-quarter, quarter, -quarter, 0.0)?;
@@ -39,7 +39,7 @@ impl Tangents {
     pub fn from_angles(left: f64, right: f64, bottom: f64, top: f64) -> Result<Self, InputError> {
         let tangent = |field: &'static str, angle: f64| {
             if angle.is_nan() || angle.abs() >= core::f64::consts::FRAC_PI_2 {
-                return check::fail(field, Problem::AngleOutOfRange);
+                return check::fail(field, InputErrorKind::AngleOutOfRange);
             }
             let (sine, cosine) = angle::sine_cosine(angle.abs());
             Ok(if angle < 0.0 { -sine / cosine } else { sine / cosine })

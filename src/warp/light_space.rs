@@ -1,7 +1,7 @@
 //! The light-space perspective: LiSPSM.
 
 use super::{MAX_RATIO, NEAREST, Proposed, Visible};
-use crate::refusal::Refusal;
+use crate::refusal::WarpFallback;
 use crate::view::Lens;
 use glam::{DVec2, DVec3};
 
@@ -31,11 +31,13 @@ use glam::{DVec2, DVec3};
 ///
 /// # Errors
 ///
-/// [`Refusal::NoPerspective`].
-pub(crate) fn propose<P: Iterator<Item = DVec3> + Clone>(visible: &Visible<'_, P>) -> Result<Proposed, Refusal> {
+/// [`WarpFallback::NoPerspective`].
+pub(crate) fn propose<P: Iterator<Item = DVec3> + Clone>(
+    visible: &Visible<'_, P>,
+) -> Result<Proposed, WarpFallback> {
     let (view, rays) = (visible.view, visible.rays);
     if view.lens() == Lens::Orthographic {
-        return Err(Refusal::NoPerspective);
+        return Err(WarpFallback::NoPerspective);
     }
     let mut c = rays.depth_across(view, visible.along);
     let depth = visible.range(|ray| c.at(ray));

@@ -2,7 +2,7 @@
 
 use super::{MAX_RATIO, Proposed, Visible};
 use crate::rays::Functional;
-use crate::refusal::Refusal;
+use crate::refusal::WarpFallback;
 use crate::view::Lens;
 use glam::DVec3;
 
@@ -28,23 +28,25 @@ use glam::DVec3;
 ///
 /// # Errors
 ///
-/// [`Refusal::NoPerspective`], [`Refusal::AlongView`], [`Refusal::FocusBehindLight`], [`Refusal::FocusLarge`].
-pub(crate) fn propose<P: Iterator<Item = DVec3> + Clone>(visible: &Visible<'_, P>) -> Result<Proposed, Refusal> {
+/// [`WarpFallback::NoPerspective`], [`WarpFallback::AlongView`], [`WarpFallback::FocusBehindLight`], [`WarpFallback::FocusLarge`].
+pub(crate) fn propose<P: Iterator<Item = DVec3> + Clone>(
+    visible: &Visible<'_, P>,
+) -> Result<Proposed, WarpFallback> {
     let (view, rays) = (visible.view, visible.rays);
     if view.lens() == Lens::Orthographic {
-        return Err(Refusal::NoPerspective);
+        return Err(WarpFallback::NoPerspective);
     }
     let depths = visible.eye_depth;
     let (eye, focus) = (view.eye(), view.centre_at(depths.min + FOCUS * (depths.max - depths.min)));
     let (from, to) = (rays.homogeneous(eye), rays.homogeneous(focus));
     if to.z <= 0.0 {
-        return Err(Refusal::FocusBehindLight);
+        return Err(WarpFallback::FocusBehindLight);
     }
     // The way from one to the other on the chart, without a division by where the eye is, which may be behind the light.
     let line = to.truncate() * from.z - from.truncate() * to.z;
     let to_light = if rays.local { from.length() } else { 1.0 };
     if line.length() <= LEAST_SINE * to_light * eye.distance(focus) {
-        return Err(Refusal::AlongView);
+        return Err(WarpFallback::AlongView);
     }
     let direction = line.normalize();
     let along = visible.range(|ray| direction.dot(ray));
@@ -53,7 +55,7 @@ pub(crate) fn propose<P: Iterator<Item = DVec3> + Clone>(visible: &Visible<'_, P
     let at_focus = at_focus.max(LEAST_FOCUS * length);
     let rest = length * (1.0 - XI) - 2.0 * at_focus;
     if rest <= 0.0 {
-        return Err(Refusal::FocusLarge);
+        return Err(WarpFallback::FocusLarge);
     }
     let eta = length * at_focus * (1.0 + XI) / rest;
     let c = Functional { slope: direction, constant: eta - along.min };

@@ -1,6 +1,6 @@
 //! Functions that read frustum maps.
 
-/// Where a position lies in a map. The matrix is [`Map::texture_matrix`](crate::Map::texture_matrix).
+/// Where a position lies in a map. The matrix is [`ShadowMap::receiver_matrix`](crate::ShadowMap::receiver_matrix).
 ///
 /// ```wgsl
 /// fn shadowfit_project(texture_from_origin: mat4x4<f32>, position: vec3<f32>) -> vec3<f32>
@@ -22,7 +22,7 @@ pub const MAP_ARRAY: &str = include_str!("map_array.wgsl");
 
 /// The ordinary filters: the nearest texel, the sampler's 2 × 2, and N × N. They need a bias in the map, and [`MAP`] or
 /// [`MAP_ARRAY`] before them. `reversed` says whether the map's clip space is reversed
-/// ([`DepthRange::is_reversed`](crate::DepthRange::is_reversed)).
+/// ([`DepthRange::is_reversed`](crate::input::DepthRange::is_reversed)).
 ///
 /// ```wgsl
 /// fn shadowfit_nearest(map: shadowfit_Map, layer: i32, projected: vec3<f32>, reversed: bool) -> f32
@@ -33,9 +33,9 @@ pub const MAP_ARRAY: &str = include_str!("map_array.wgsl");
 /// ```
 pub const FILTERS: &str = include_str!("filters.wgsl");
 
-/// The same with virtual samples ([`crate::TangentPlane`]), over 2 × 2 texels, blended, and over N × N: they need no bias
+/// The same with virtual samples ([`crate::depth::TangentPlane`]), over 2 × 2 texels, blended, and over N × N: they need no bias
 /// on planes. They need [`FILTERS`] before them. `parts` is
-/// [`Map::comparison_tolerance`](crate::Map::comparison_tolerance), from which the second function makes the tolerance that
+/// [`ShadowMap::comparison_tolerance`](crate::ShadowMap::comparison_tolerance), from which the second function makes the tolerance that
 /// the others take; the normal is the triangle's, not a smooth one.
 ///
 /// ```wgsl
@@ -53,13 +53,13 @@ pub const FILTERS: &str = include_str!("filters.wgsl");
 /// ```
 pub const VIRTUAL_SAMPLES: &str = include_str!("virtual_samples.wgsl");
 
-/// Depth between two layers ([`DepthTest::BetweenLayers`](crate::DepthTest)), of the nearest texel (one tap) or N × N. They
+/// Depth between two layers ([`DepthTest::BetweenLayers`](crate::depth::DepthTest)), of the nearest texel (one tap) or N × N. They
 /// need [`FILTERS`] before them.
 ///
 /// The first function is for the fragments of the second pass, which draws the same triangles with the same vertex shader
 /// and matrix into a map of its own, with `first_layer` to read from: what it answers `false` for is to be discarded. The
 /// position must be `@invariant` in both passes. `parts` is
-/// [`Map::comparison_tolerance`](crate::Map::comparison_tolerance) for one texel, a reach of 0.5, which counts once for
+/// [`ShadowMap::comparison_tolerance`](crate::ShadowMap::comparison_tolerance) for one texel, a reach of 0.5, which counts once for
 /// each of the two depths, so that neither the rounding to the format nor a second triangle in the same plane makes a layer.
 ///
 /// ```wgsl

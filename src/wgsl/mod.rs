@@ -10,9 +10,9 @@ mod slices;
 mod validation;
 
 pub use frustum::{BETWEEN_LAYERS, FILTERS, MAP, MAP_ARRAY, PROJECT, VIRTUAL_SAMPLES};
-pub use slices::SLICES;
+pub use slices::CASCADES;
 
-/// Paraboloid maps, drawn and read, see [`Paraboloid`](crate::Paraboloid). `ShadowfitParaboloidVertex` can be what a vertex shader
+/// Paraboloid maps, drawn and read, see [`Paraboloid`](crate::omni::Paraboloid). `ShadowfitParaboloidVertex` can be what a vertex shader
 /// gives and a fragment shader takes, as it is; the fragment shader writes the depth that it is given.
 ///
 /// ```wgsl
@@ -27,16 +27,16 @@ pub use slices::SLICES;
 /// ```
 pub const PARABOLOID: &str = include_str!("paraboloid.wgsl");
 
-/// Discs and balls as quads in a shadow map, each of its [`covering`](crate::Splat::covering) size and of its own depth.
+/// Discs and balls as quads in a shadow map, each of its [`covering`](crate::depth::Splat::covering) size and of its own depth.
 ///
 /// - `shadowfit_disc_splat(shadow_from_world, centre, normal, radius, map_sides, corner)`: the clip position of a corner of
-///   a disc's rectangle, see [`Map::disc_splat`](crate::Map::disc_splat). `shadow_from_world` is
-///   [`Map::matrix`](crate::Map::matrix), `centre`, a unit `normal` and `radius` are in the space that it takes positions
+///   a disc's rectangle, see [`ShadowMap::disc_splat`](crate::ShadowMap::disc_splat). `shadow_from_world` is
+///   [`ShadowMap::caster_matrix`](crate::ShadowMap::caster_matrix), `centre`, a unit `normal` and `radius` are in the space that it takes positions
 ///   in, `map_sides` are the map's width and height as f32s, and `corner` has coordinates −1 or 1.
 /// - `shadowfit_ball_splat(shadow_from_world, centre, radius, map_sides, corner)`: the same of a ball, see
-///   [`Map::splat`](crate::Map::splat).
+///   [`ShadowMap::splat`](crate::ShadowMap::splat).
 /// - `shadowfit_splat_corner(shadow_from_world, centre, normal, radius, map_sides, corner)`: the same corner as
 ///   `struct shadowfit_SplatCorner { clip: vec4<f32>, offset: vec2<f32> }`, of a ball with a normal of zero. A fragment
 ///   shader that gets `offset`, interpolated, and discards where it is longer than 1 draws discs and not rectangles, see
-///   [`Splat`](crate::Splat).
+///   [`Splat`](crate::depth::Splat).
 pub const SPLAT: &str = include_str!("splat.wgsl");

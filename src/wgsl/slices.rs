@@ -1,9 +1,9 @@
 //! Functions that choose among the maps of slices.
 
-/// The slice that a depth belongs to, and where in its map to look, see [`Slices`](crate::Slices).
+/// The slice that a depth belongs to, and where in its map to look, see [`Cascades`](crate::cascades::Cascades).
 ///
 /// `shadowfit_Slices` is a struct for a shader's own uniform or storage buffer, filled with
-/// [`SliceUniform::to_bytes`](crate::SliceUniform::to_bytes). With a matrix of it, [`PROJECT`](super::PROJECT) and the filters
+/// [`CascadeUniform::to_bytes`](crate::cascades::CascadeUniform::to_bytes). With a matrix of it, [`PROJECT`](super::PROJECT) and the filters
 /// work as on any map, in an array and in an atlas alike.
 ///
 /// ```wgsl
@@ -41,13 +41,13 @@
 ///     return mix(light_of(slice, position), light_of(slice + 1, position), blend);
 /// }
 /// ```
-pub const SLICES: &str = include_str!("slices.wgsl");
+pub const CASCADES: &str = include_str!("slices.wgsl");
 
 #[cfg(test)]
 mod tests {
     use super::super::validation::{assert_adds_only_its_own_names, validated};
-    use super::super::{FILTERS, MAP, MAP_ARRAY, PROJECT, SLICES};
-    use crate::SliceUniform;
+    use super::super::{CASCADES, FILTERS, MAP, MAP_ARRAY, PROJECT};
+    use crate::slices::CascadeUniform;
     use core::mem::offset_of;
     use naga::TypeInner;
     use std::format;
@@ -55,13 +55,13 @@ mod tests {
 
     #[test]
     fn the_functions_are_valid_and_theirs_are_the_only_names() {
-        assert_adds_only_its_own_names(&validated(SLICES));
+        assert_adds_only_its_own_names(&validated(CASCADES));
     }
 
     /// The shader's struct lies in memory as the one that is uploaded.
     #[test]
     fn the_block_is_laid_out_alike() {
-        let module = validated(SLICES);
+        let module = validated(CASCADES);
         let block = module.types.iter().find(|(_, of)| of.name.as_deref() == Some("shadowfit_Slices"));
         let Some((_, naga::Type { inner: TypeInner::Struct { members, span }, .. })) = block else {
             panic!("no struct");
@@ -71,14 +71,14 @@ mod tests {
             .map(|member| (member.name.as_deref().unwrap_or_default(), member.offset as usize))
             .collect();
         let ours = [
-            ("texture_from_origin", offset_of!(SliceUniform, texture_from_origin)),
-            ("inner", offset_of!(SliceUniform, inner)),
-            ("far", offset_of!(SliceUniform, far)),
-            ("blend", offset_of!(SliceUniform, blend)),
-            ("layer", offset_of!(SliceUniform, layer)),
+            ("texture_from_origin", offset_of!(CascadeUniform, texture_from_origin)),
+            ("inner", offset_of!(CascadeUniform, inner)),
+            ("far", offset_of!(CascadeUniform, far)),
+            ("blend", offset_of!(CascadeUniform, blend)),
+            ("layer", offset_of!(CascadeUniform, layer)),
         ];
         assert_eq!(theirs, ours);
-        assert_eq!(*span as usize, SliceUniform::SIZE);
+        assert_eq!(*span as usize, CascadeUniform::SIZE);
     }
 
     /// The shader of the documentation, on an atlas and on an array.
@@ -101,7 +101,7 @@ mod tests {
             }";
         for (map, kind) in [(MAP, "texture_depth_2d"), (MAP_ARRAY, "texture_depth_2d_array")] {
             let bindings = format!("@group(0) @binding(0) var maps: {kind};\n");
-            validated(&[PROJECT, map, FILTERS, SLICES, &bindings, &example, shader].concat());
+            validated(&[PROJECT, map, FILTERS, CASCADES, &bindings, &example, shader].concat());
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use proptest::prelude::*;
-use shadowfit::{CubeFace, InputError, Light, View};
+use shadowfit::{InputError, Light, View, omni::CubeFace};
 
 use super::primitive::{almost_zero, direction, lattice_direction, magnitude, nudged};
 use super::{Similarity, params::plane};

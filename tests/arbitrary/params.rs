@@ -1,7 +1,7 @@
 //! A whole case, and the similarity that moves it.
 
 use glam::DVec3;
-use shadowfit::{InputError, Light, Plane, View};
+use shadowfit::{InputError, Light, View, focus::Plane};
 
 use super::{LightParams, SceneParams, ViewParams};
 

@@ -58,7 +58,7 @@ pub(crate) fn number_bits() -> impl Strategy<Value = f64> {
         2 => prop::sample::select(vec![
             0.0, -0.0, 1.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX,
             f64::MIN_POSITIVE, f64::from_bits(1), f64::EPSILON, 1e300, -1e300, 1e-300,
-            shadowfit::MAX_COORDINATE, -shadowfit::MAX_COORDINATE, shadowfit::MIN_DISTANCE,
+            shadowfit::input::MAX_COORDINATE, -shadowfit::input::MAX_COORDINATE, shadowfit::input::MIN_DISTANCE,
         ]),
     ]
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use proptest::prelude::*;
-use shadowfit::{Aabb, ConvexScene, InputError, Scene, View};
+use shadowfit::{Aabb, InputError, Scene, View, input::ConvexScene};
 
 use super::primitive::{direction, lattice_direction, magnitude};
 use super::{Similarity, params::plane};

@@ -2,7 +2,11 @@
 
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
-use shadowfit::{Body, Effort, Focus, Form, Light, Origin, Plane, Settings, Shift, View, Warp};
+use shadowfit::{
+    Effort, Focus, FocusForm, Light, Origin, Settings, View, Warp,
+    focus::{ConvexBody, Plane},
+    warp::Shift,
+};
 
 use super::{Case, SceneStore, clip_space};
 
@@ -23,7 +27,11 @@ pub(crate) const WARPS: [Warp; 7] = [
 /// Settings of every kind.
 pub(crate) fn settings() -> impl Strategy<Value = Settings> {
     let warp = prop::sample::select(&WARPS);
-    let shift = prop_oneof![Just(Shift::None), Just(Shift::Back(Form::Paper)), Just(Shift::Back(Form::Tight))];
+    let shift = prop_oneof![
+        Just(Shift::None),
+        Just(Shift::Back(FocusForm::ViewHull)),
+        Just(Shift::Back(FocusForm::ReceiverHull))
+    ];
     let origin = prop_oneof![Just(Origin::World), Just(Origin::Eye), Just(Origin::Light)];
     let square = [4, 512, 2048, 16384].map(|size| (size, size));
     let other = [(4, 4096), (16384, 64), (2048, 512), (1000, 3000)];
@@ -79,7 +87,7 @@ impl Together {
     ///
     /// The vertices of H as computed may be a few roundings outside of hull(R, l), which is nothing to a caster but
     /// much to a light that grazes a flat scene.
-    pub(crate) fn casters(&self, body: &Body, visible: &[DVec3], seed: u64) -> Vec<DVec3> {
+    pub(crate) fn casters(&self, body: &ConvexBody, visible: &[DVec3], seed: u64) -> Vec<DVec3> {
         let mut numbers = Numbers(!seed);
         let l = self.light.homogeneous();
         let mut points = Vec::new();
@@ -101,7 +109,7 @@ impl Together {
 }
 
 /// The vertices of a body and sixteen convex combinations of them, chosen by a seed.
-pub(crate) fn points_of(body: &Body, seed: u64) -> Vec<DVec3> {
+pub(crate) fn points_of(body: &ConvexBody, seed: u64) -> Vec<DVec3> {
     let vertices = body.vertices();
     let mut points = vertices.to_vec();
     if vertices.is_empty() {

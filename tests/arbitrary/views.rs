@@ -2,7 +2,10 @@
 
 use glam::{DMat4, DVec3, DVec4};
 use proptest::prelude::*;
-use shadowfit::{ClipSpace, DepthRange, InputError, TextureOrigin, View, YAxis};
+use shadowfit::{
+    ClipSpace, InputError, View,
+    input::{DepthRange, TextureOrigin, YAxis},
+};
 
 use super::Similarity;
 use super::primitive::{direction, lattice_direction, magnitude};

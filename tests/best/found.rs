@@ -1,15 +1,15 @@
 //! The map that a search found, before it was mixed with the uniform one for what it is worth at surfaces.
 //!
-//! [`Map::weakening`] says how much of w, in the middle of the uniform map's window, is the uniform map's. Taken off again, w is
+//! [`ShadowMap::weakening`] says how much of w, in the middle of the uniform map's window, is the uniform map's. Taken off again, w is
 //! what was found; the window is what the vertices of R make of it.
 
 use super::exhaustive::nearest;
 use glam::{DMat2, DVec2, DVec3, DVec4};
-use shadowfit::{Focus, Map, Warp};
+use shadowfit::{Focus, ShadowMap, Warp};
 
 /// The rows x, y and w of a map.
-fn rows(map: &Map) -> [DVec4; 3] {
-    let matrix = map.shadow_from_world();
+fn rows(map: &ShadowMap) -> [DVec4; 3] {
+    let matrix = map.clip_from_world();
     [0, 1, 3].map(|row| matrix.row(row))
 }
 
@@ -18,7 +18,7 @@ const PARTS: [f64; 5] = [0.0, 1.0 / 9.0, 1.0 / 5.0, 1.0 / 3.0, 1.0 / 2.0];
 
 /// The worst side of a texel, in pixels, over points: of what the search found; `None` where nothing is left of it or f32 needs
 /// more of the uniform map besides.
-pub(super) fn of_search(focus: &Focus<'_>, map: &Map, points: &[DVec3]) -> Option<f64> {
+pub(super) fn of_search(focus: &Focus<'_>, map: &ShadowMap, points: &[DVec3]) -> Option<f64> {
     if !is_served(focus) {
         return None;
     }
@@ -31,7 +31,7 @@ pub(super) fn of_search(focus: &Focus<'_>, map: &Map, points: &[DVec3]) -> Optio
     let [x, y, w] = rows(map);
     let [_, _, of_uniform] = rows(&uniform);
     // A point on the ray in the middle of its window.
-    let middle = uniform.shadow_from_world().inverse() * DVec4::new(0.0, 0.0, 0.5, 1.0);
+    let middle = uniform.clip_from_world().inverse() * DVec4::new(0.0, 0.0, 0.5, 1.0);
     let uniform_w = of_uniform * (w.dot(middle) / of_uniform.dot(middle));
     // x and y have the mixed w in them, which moves the window.
     let [x, y] = [x, y].map(|row| row - w * (row.dot(middle) / w.dot(middle)));
@@ -44,21 +44,21 @@ fn is_served(focus: &Focus<'_>) -> bool {
     let near = focus.light().near();
     let is_served =
         |point: &DVec3| focus.light().position().is_none_or(|position| position.distance(*point) >= near);
-    focus.visible().vertices().iter().all(is_served)
+    focus.receiver_volume().vertices().iter().all(is_served)
 }
 
 /// The same of a map as it is.
-pub(super) fn of_form(focus: &Focus<'_>, map: &Map, points: &[DVec3]) -> f64 {
+pub(super) fn of_form(focus: &Focus<'_>, map: &ShadowMap, points: &[DVec3]) -> f64 {
     worst(focus, map, points, rows(map))
 }
 
 /// The same of a homography, in the window that it makes of the vertices of R.
-fn worst(focus: &Focus<'_>, map: &Map, points: &[DVec3], [x, y, w]: [DVec4; 3]) -> f64 {
+fn worst(focus: &Focus<'_>, map: &ShadowMap, points: &[DVec3], [x, y, w]: [DVec4; 3]) -> f64 {
     let place = |point: DVec3| {
         let at = point.extend(1.0);
         DVec2::new(x.dot(at), y.dot(at)) / w.dot(at)
     };
-    let visible = focus.visible();
+    let visible = focus.receiver_volume();
     let places = || visible.vertices().iter().copied().map(place);
     let (min, max) =
         places().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), place| (min.min(place), max.max(place)));

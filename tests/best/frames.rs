@@ -4,7 +4,7 @@ use crate::outdoors::{self, Kind};
 use glam::DVec3;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use shadowfit::{Effort, Focus, Light, Map, Settings, View, Warp};
+use shadowfit::{Effort, Focus, Light, Settings, ShadowMap, View, Warp};
 
 /// A camera that can be moved.
 struct Walk {
@@ -24,20 +24,20 @@ impl Walk {
     }
 
     /// The map from the one before, and how far it moves any vertex of R, in parts of the map.
-    fn next(&self, before: &Map) -> Option<(Map, f64)> {
+    fn next(&self, before: &ShadowMap) -> Option<(ShadowMap, f64)> {
         let (view, scene) = (self.view(), outdoors::town());
         let focus = Focus::new(&view, &self.light, &scene);
-        let map = *focus.fit_from(before, &settings()).map()?;
-        let place = |map: &Map, point: DVec3| {
+        let map = *focus.fit_warm(before, &settings()).map()?;
+        let place = |map: &ShadowMap, point: DVec3| {
             let clip = map.texture_from_world() * point.extend(1.0);
             clip.truncate().truncate() / clip.w
         };
         let moved = |&point: &DVec3| (place(&map, point) - place(before, point)).abs().max_element();
-        Some((map, focus.visible().vertices().iter().map(moved).fold(0.0, f64::max)))
+        Some((map, focus.receiver_volume().vertices().iter().map(moved).fold(0.0, f64::max)))
     }
 
     /// The map on its own, and then from itself until it rests.
-    fn settled(&self) -> Option<Map> {
+    fn settled(&self) -> Option<ShadowMap> {
         let (view, scene) = (self.view(), outdoors::town());
         let mut map = *Focus::new(&view, &self.light, &scene).fit(&settings()).map()?;
         for _ in 0..MOST_FRAMES {
@@ -73,8 +73,8 @@ fn a_map_at_rest_moves_with_the_view() {
             let Some(map) = walk.settled() else { continue };
             walk.eye += DVec3::new(random.random_range(-1e-6..1e-6), 0.0, random.random_range(-1e-6..1e-6));
             let Some((next, moved)) = walk.next(&map) else { continue };
-            switches += u32::from(next.switched());
-            assert!(moved < 1e-3 || next.switched(), "{kind:?} {} {}: {moved}", walk.eye, walk.forward);
+            switches += u32::from(next.jumped());
+            assert!(moved < 1e-3 || next.jumped(), "{kind:?} {} {}: {moved}", walk.eye, walk.forward);
         }
     }
     assert!(switches <= 2, "{switches} switches for nothing");
@@ -95,9 +95,9 @@ fn jumps_are_told() {
                 walk.eye += ahead;
                 let Some((next, moved)) = walk.next(&map) else { break };
                 frames += 1;
-                switches += u32::from(next.switched());
+                switches += u32::from(next.jumped());
                 assert!(
-                    moved < 1.0 / 32.0 + 0.005 || next.switched(),
+                    moved < 1.0 / 32.0 + 0.005 || next.jumped(),
                     "{kind:?} {} {}: {moved}",
                     walk.eye,
                     walk.forward

@@ -18,7 +18,7 @@ use outdoors::Kind;
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
-use shadowfit::{Effort, Focus, Form, Map, Settings, Shift, Warp};
+use shadowfit::{Effort, Focus, FocusForm, Settings, ShadowMap, Warp, warp::Shift};
 use std::cell::Cell;
 
 const EFFORTS: [Effort; 4] = [Effort::ClosedForms, Effort::Rough, Effort::Good, Effort::Thorough];
@@ -39,7 +39,7 @@ fn of_sides((width, height): (u32, u32)) -> Settings {
 
 /// What the search looks at: the vertices of R, and under a light at a position the middles of its edges.
 fn points(focus: &Focus<'_>) -> Vec<DVec3> {
-    let visible = focus.visible();
+    let visible = focus.receiver_volume();
     let mut points = visible.vertices().to_vec();
     if focus.light().position().is_some() {
         points.extend(visible.edges().map(|(a, b)| (a + b) * 0.5));
@@ -118,7 +118,7 @@ fn comes_within_a_twentieth(settings: &Settings, cases: usize, [good, thorough]:
 /// smaller than what f32 can tell apart in world space.
 const MOST_PADDING: f64 = 1.0 / 64.0;
 
-fn padding(map: &Map) -> f64 {
+fn padding(map: &ShadowMap) -> f64 {
     let (across, along) = map.window().padding;
     across.max(along)
 }
@@ -127,7 +127,11 @@ fn padding(map: &Map) -> f64 {
 /// closed form, but for what its window is padded by.
 #[test]
 fn is_never_worse_than_a_closed_form() {
-    let shift = prop_oneof![Just(Shift::None), Just(Shift::Back(Form::Paper)), Just(Shift::Back(Form::Tight))];
+    let shift = prop_oneof![
+        Just(Shift::None),
+        Just(Shift::Back(FocusForm::ViewHull)),
+        Just(Shift::Back(FocusForm::ReceiverHull))
+    ];
     let (all, compared) = (Cell::new(0), Cell::new(0));
     run(3000, &(case(), prop::sample::select(&EFFORTS), shift, sides()), |(case, effort, shift, sides)| {
         let together = Together::of(&case);
@@ -159,7 +163,7 @@ fn a_map_of_the_same_frame_is_kept() {
         let focus = together.focus();
         let settings = of_sides(sides).with_warp(Warp::Best(Effort::Good));
         let Some(&first) = focus.fit(&settings).map() else { return };
-        let again = focus.fit_from(&first, &settings);
+        let again = focus.fit_warm(&first, &settings);
         let again = again.map().expect("a map as before");
         if padding(&first).max(padding(again)) <= MOST_PADDING {
             let points = points(&focus);

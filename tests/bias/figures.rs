@@ -3,8 +3,8 @@
 use glam::DVec3;
 use proptest::prelude::*;
 use shadowfit::{
-    ClipSpace, CubeFace, DepthBias, DepthFormat, Focus, Light, Origin, Outcome, Problem, Scene, Settings, View,
-    Warp, fit,
+    ClipSpace, DepthFormat, Focus, Light, Origin, Outcome, Scene, Settings, View, Warp, depth::DepthBias, fit,
+    input::InputErrorKind, omni::CubeFace,
 };
 
 use super::arbitrary::{Together, case, points_of, run, settings};
@@ -21,7 +21,7 @@ fn eight_bits_are_steps_of_a_255th() {
     assert!((resolution - range / 255.0).abs() < 1e-9 * range, "{resolution} of {range}");
     // What f32 rounds is nothing to so coarse a step, and another map of any kind asks for the same.
     let bias = map.bias(format, 0.5).expect("a legal reach");
-    assert_eq!((bias.constant, bias.constant_alone(), bias.slope), (1, Some(2), 1.1875));
+    assert_eq!((bias.constant, bias.constant_alone(), bias.slope_scale), (1, Some(2), 1.1875));
     assert!(bias.most < 0.01 * format.step(1.0), "{bias:?}");
 }
 
@@ -43,17 +43,18 @@ fn units_are_what_the_apis_say() {
 fn a_reach_makes_sense_or_is_refused() {
     let map = outdoors(&sun(), &Settings::default());
     for (reach, problem) in [
-        (f64::NAN, Problem::NotFinite),
-        (f64::INFINITY, Problem::NotFinite),
-        (0.49, Problem::TooSmall),
-        (-1.0, Problem::TooSmall),
-        (65_537.0, Problem::TooLarge),
+        (f64::NAN, InputErrorKind::NotFinite),
+        (f64::INFINITY, InputErrorKind::NotFinite),
+        (0.49, InputErrorKind::TooSmall),
+        (-1.0, InputErrorKind::TooSmall),
+        (65_537.0, InputErrorKind::TooLarge),
     ] {
         let error = map.bias(DepthFormat::Unorm16, reach).expect_err("no such filter");
         assert_eq!((error.field, error.problem), ("reach", problem));
     }
     // Wider filters need more, and all of it is finite.
-    let slopes = [0.5, 1.0, 1.5, 100.0, 65_536.0].map(|reach| map.bias(DepthFormat::Float32, reach).unwrap().slope);
+    let slopes =
+        [0.5, 1.0, 1.5, 100.0, 65_536.0].map(|reach| map.bias(DepthFormat::Float32, reach).unwrap().slope_scale);
     assert!(slopes.is_sorted() && slopes[0] < 1.2 && slopes[4].is_finite(), "{slopes:?}");
 }
 
@@ -71,7 +72,7 @@ fn what_a_bias_costs_is_a_distance_along_the_ray() {
                     // No depth along the ray is so much larger.
                     continue;
                 }
-                let matrix = map.shadow_from_world_in(ClipSpace::WGPU);
+                let matrix = map.clip_from_world_in(ClipSpace::WGPU);
                 let behind = point - light.direction_from(point) * distance;
                 // Textures and clip space have one depth in wgpu's convention.
                 let behind = map.texture_from_world_with(&bias.offset()).project_point3(behind).z;
@@ -139,7 +140,7 @@ impl BiasInDepth for DepthBias {
     /// The most that may be added to depth on a plane with a gradient so long, with a step for rounding.
     fn bias_in_depth(&self, slope: f64) -> f64 {
         let unit = *self.format.bias_unit(1.0).end();
-        f64::from(self.constant) * unit + f64::from(self.slope) * slope + self.format.step(0.5)
+        f64::from(self.constant) * unit + f64::from(self.slope_scale) * slope + self.format.step(0.5)
     }
 }
 
@@ -148,8 +149,8 @@ impl BiasInDepth for DepthBias {
 fn without_a_warp_the_suns_depth_is_linear() {
     let map = outdoors(&sun(), &Settings::default().with_warp(Warp::Uniform));
     let linear = map.linear_depth();
-    for point in Focus::new(&view(), &sun(), &scene()).visible().vertices() {
-        let (hyperbolic, linear) = (map.shadow_from_world().project_point3(*point).z, linear.at(*point));
+    for point in Focus::new(&view(), &sun(), &scene()).receiver_volume().vertices() {
+        let (hyperbolic, linear) = (map.clip_from_world().project_point3(*point).z, linear.at(*point));
         assert!((hyperbolic - linear).abs() < 1e-5, "{hyperbolic} {linear}");
     }
 }
@@ -162,7 +163,7 @@ fn linear_depth_holds_what_is_visible_and_grows_along_rays() {
         let Outcome::Map(map) = focus.fit(&settings) else { return };
         let linear = map.linear_depth();
         let ahead = |point: DVec3| -linear.normal.dot(together.light.direction_from(point));
-        for point in points_of(&focus.visible(), seed) {
+        for point in points_of(&focus.receiver_volume(), seed) {
             let depth = linear.at(point);
             let slack = 64.0 * f64::EPSILON * (linear.normal.abs().dot(point.abs()) + linear.offset.abs());
             // Next to a light in a corner of R, nearer than anything casts, it begins after the point.
@@ -201,7 +202,7 @@ fn figures() {
             for reach in [0.5, 1.5] {
                 let bias = map.bias(format, reach).expect("a legal reach");
                 let cost = map.bias_distance(points[1], DVec3::Y, &bias);
-                let DepthBias { constant, slope, receiver, relative, .. } = bias;
+                let DepthBias { constant, slope_scale: slope, receiver, relative, .. } = bias;
                 text += &format!(
                     "{:8} reach {reach}: {constant} {slope} {receiver:.1e} {relative:.1e}  {cost:.1e}\n",
                     format!("{format:?}")

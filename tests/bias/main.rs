@@ -20,13 +20,13 @@ mod planes;
 mod simulate;
 
 use glam::DVec3;
-use shadowfit::{DepthFormat, Light, Map, Scene, Settings, View, fit};
+use shadowfit::{DepthFormat, Light, Scene, Settings, ShadowMap, View, fit};
 
 const FORMATS: [DepthFormat; 4] =
     [DepthFormat::Unorm8, DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32];
 
 /// A plane under a lamp and the sun, seen from a person's height, and bodies above it.
-fn outdoors(light: &Light, settings: &Settings) -> Map {
+fn outdoors(light: &Light, settings: &Settings) -> ShadowMap {
     *fit(&view(), light, &scene(), settings).map().expect("a map")
 }
 

@@ -5,13 +5,13 @@ use std::cell::Cell;
 
 use glam::{DMat4, DVec2, DVec3};
 use proptest::prelude::*;
-use shadowfit::{ClipSpace, DepthFormat, Focus, Map, Offset, Outcome, Settings};
+use shadowfit::{ClipSpace, DepthFormat, Focus, Outcome, Settings, ShadowMap, depth::ReceiverOffset};
 
 use super::arbitrary::{Together, case, points_of, run, settings};
 use super::{lamp, outdoors, scene, sun, view};
 
 /// The plane's own depth at a place: where the ray through it meets the plane.
-fn depth_on_plane(map: &Map, from_texture: &DMat4, place: DVec2, point: DVec3, normal: DVec3) -> Option<f64> {
+fn depth_on_plane(map: &ShadowMap, from_texture: &DMat4, place: DVec2, point: DVec3, normal: DVec3) -> Option<f64> {
     let [near, far] = [0.25, 0.75].map(|depth| from_texture.project_point3(place.extend(depth)));
     let (to_far, to_plane) = ((far - near).dot(normal), (point - near).dot(normal));
     let at = near + (far - near) * (to_plane / to_far);
@@ -33,7 +33,7 @@ fn moved_receivers_are_clear_of_their_plane() {
         let bias = map.bias(DepthFormat::Float32, reach).expect("a reach");
         let from_texture = map.texture_from_world().inverse();
         let sides = DVec2::new(f64::from(map.settings().map_sides().0), f64::from(map.settings().map_sides().1));
-        for point in points_of(&focus.visible(), seed) {
+        for point in points_of(&focus.receiver_volume(), seed) {
             if !together.is_served(point) {
                 continue;
             }
@@ -75,7 +75,7 @@ fn offsets_are_as_long_as_they_should_be() {
         let (sine, cosine) = f64::from(degrees).to_radians().sin_cos();
         let offset = map.normal_offset(point, towards * cosine + across * sine, &bias);
         let noise = (bias.receiver + 2e-7) / 0.01 * cosine;
-        let whole = f64::from(bias.slope) * side * sine;
+        let whole = f64::from(bias.slope_scale) * side * sine;
         assert!(offset <= whole + noise + 1e-4 && offset >= 0.6 * whole, "{degrees}°: {offset} of {whole}");
         assert!(offset <= map.normal_offset_at(point, &bias));
     }
@@ -99,7 +99,7 @@ fn the_largest_offset_covers_what_is_visible() {
         let bias = map.bias(DepthFormat::Float32, 1.0).expect("a reach");
         let largest = map.largest_normal_offset(&focus, &bias);
         assert!(!largest.is_nan());
-        for point in points_of(&focus.visible(), seed) {
+        for point in points_of(&focus.receiver_volume(), seed) {
             if together.is_served(point) && largest.is_finite() {
                 worst.set(worst.get().max(map.normal_offset_at(point, &bias) / largest));
             }
@@ -116,23 +116,22 @@ fn offsets_in_clip_space() {
         for light in [sun(), lamp()] {
             let map = outdoors(&light, &Settings::default().with_clip(clip));
             let offset = map.bias(DepthFormat::Unorm24, 1.0).expect("a reach").offset();
-            assert_eq!(map.shadow_from_world_with(&Offset::depth(0.0).expect("none")), map.shadow_from_world());
-            for point in Focus::new(&view(), &light, &scene()).visible().vertices() {
+            assert_eq!(map.clip_from_world_with(&ReceiverOffset::depth(0.0).expect("none")), map.clip_from_world());
+            for point in Focus::new(&view(), &light, &scene()).receiver_volume().vertices() {
                 let [in_clip, in_texture] =
-                    [map.shadow_from_world_with(&offset), map.texture_from_world_with(&offset)];
+                    [map.clip_from_world_with(&offset), map.texture_from_world_with(&offset)];
                 let (in_clip, in_texture) = (in_clip.project_point3(*point), in_texture.project_point3(*point));
                 let depth = match clip.depth {
-                    shadowfit::DepthRange::NegativeOneToOne | shadowfit::DepthRange::NegativeOneToOneReversed => {
-                        0.5 * in_clip.z + 0.5
-                    }
+                    shadowfit::input::DepthRange::NegativeOneToOne
+                    | shadowfit::input::DepthRange::NegativeOneToOneReversed => 0.5 * in_clip.z + 0.5,
                     _ => in_clip.z,
                 };
                 assert!((depth - in_texture.z).abs() < 1e-12, "{depth}, {}", in_texture.z);
                 assert!((0.5 * in_clip.x + 0.5 - in_texture.x).abs() < 1e-12);
                 assert!(map.w_at(*point) > 0.0);
             }
-            let single = map.matrix_with(&offset).as_dmat4();
-            assert!((single - map.shadow_from_world_with(&offset)).abs_diff_eq(DMat4::ZERO, 1e-3));
+            let single = map.receiver_clip_matrix_with(&offset).as_dmat4();
+            assert!((single - map.clip_from_world_with(&offset)).abs_diff_eq(DMat4::ZERO, 1e-3));
         }
     }
 }
@@ -146,8 +145,8 @@ fn biases_have_the_sign_of_their_clip_space() {
                 |clip| outdoors(&light, &Settings::default().with_clip(clip)).bias(format, 1.0).expect("a reach");
             for clip in [ClipSpace::WGPU, ClipSpace::OPENGL, ClipSpace::VULKAN] {
                 let (one, other) = (bias(clip), bias(clip.reversed()));
-                assert!(one.constant > 0 && one.slope > 0.0);
-                assert_eq!((other.constant, other.slope), (-one.constant, -one.slope));
+                assert!(one.constant > 0 && one.slope_scale > 0.0);
+                assert_eq!((other.constant, other.slope_scale), (-one.constant, -one.slope_scale));
                 assert_eq!(other.constant_alone(), one.constant_alone().map(|constant| -constant));
             }
         }

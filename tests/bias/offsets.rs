@@ -4,7 +4,10 @@ use std::cell::Cell;
 
 use glam::{DMat4, DVec3, DVec4, Vec4Swizzles};
 use proptest::prelude::*;
-use shadowfit::{ClipSpace, Focus, InputError, Light, Map, Offset, Origin, Outcome, Problem, Settings};
+use shadowfit::{
+    ClipSpace, Focus, InputError, Light, Origin, Outcome, Settings, ShadowMap, depth::ReceiverOffset,
+    input::InputErrorKind,
+};
 
 use super::arbitrary::{Together, case, points_of, run, settings};
 use super::{lamp, outdoors, scene, sun, view};
@@ -25,7 +28,7 @@ fn towards(light: &Light, point: DVec3, part: f64) -> DVec3 {
 }
 
 /// Depth away from the light.
-fn away(map: &Map, depth: f64) -> f64 {
+fn away(map: &ShadowMap, depth: f64) -> f64 {
     if map.settings().clip().depth.is_reversed() { 1.0 - depth } else { depth }
 }
 
@@ -42,12 +45,12 @@ fn offsets_are_the_depths_of_points_nearer_to_the_light() {
         // A world length that is something in this scene.
         let (min, max) = case.scene.bounds();
         let length = amount * (DVec3::from(max) - DVec3::from(min)).length();
-        let relative = map.texture_from_world_with(&Offset::relative(amount).expect("legal"));
-        let depth = map.texture_from_world_with(&Offset::depth(amount).expect("legal"));
-        let both = Offset::relative(amount).and_then(|offset| offset.and_depth(0.01));
+        let relative = map.texture_from_world_with(&ReceiverOffset::relative(amount).expect("legal"));
+        let depth = map.texture_from_world_with(&ReceiverOffset::depth(amount).expect("legal"));
+        let both = ReceiverOffset::relative(amount).and_then(|offset| offset.and_depth(0.01));
         let both = map.texture_from_world_with(&both.expect("legal"));
-        let world = map.texture_from_world_with(&Offset::world(length).expect("legal"));
-        let visible = focus.visible();
+        let world = map.texture_from_world_with(&ReceiverOffset::world(length).expect("legal"));
+        let visible = focus.receiver_volume();
         for point in points_of(&visible, seed) {
             if !together.is_served(point) {
                 continue;
@@ -102,7 +105,7 @@ fn moved_by(plain: &DMat4, offset: &DMat4, light: &Light, position: DVec3, point
 }
 
 /// The distance of a point from the light along the axis of the map, which linear depth grows along.
-fn along_axis(map: &Map, light: &Light, point: DVec3) -> f64 {
+fn along_axis(map: &ShadowMap, light: &Light, point: DVec3) -> f64 {
     let position = light.position().expect("a lamp");
     map.linear_depth().normal.normalize().dot(point - position)
 }
@@ -114,13 +117,15 @@ fn offsets_in_f32_are_the_ones_in_f64() {
             for origin in [Origin::World, Origin::Eye, Origin::Light] {
                 let map = outdoors(&light, &Settings::default().with_clip(clip).with_origin(origin));
                 let about = DMat4::from_translation(map.origin());
-                for offset in [Offset::world(0.1), Offset::relative(0.01), Offset::depth(1e-3)].map(Result::unwrap)
+                for offset in
+                    [ReceiverOffset::world(0.1), ReceiverOffset::relative(0.01), ReceiverOffset::depth(1e-3)]
+                        .map(Result::unwrap)
                 {
                     let matrix = map.texture_from_world_with(&offset) * about;
-                    assert_eq!(map.texture_matrix_with(&offset), matrix.as_mat4());
+                    assert_eq!(map.receiver_matrix_with(&offset), matrix.as_mat4());
                 }
-                let none = Offset::depth(0.0).expect("legal");
-                assert_eq!(map.texture_matrix_with(&none), map.texture_matrix());
+                let none = ReceiverOffset::depth(0.0).expect("legal");
+                assert_eq!(map.receiver_matrix_with(&none), map.receiver_matrix());
             }
         }
     }
@@ -133,13 +138,13 @@ fn a_world_distance_under_a_lamp_is_a_chord() {
     let focus = Focus::new(&view(), &lamp(), &scene());
     let position = lamp().position().expect("a lamp");
     let (plain, moved) =
-        (map.texture_from_world(), map.texture_from_world_with(&Offset::world(0.05).expect("legal")));
+        (map.texture_from_world(), map.texture_from_world_with(&ReceiverOffset::world(0.05).expect("legal")));
     let by = |point: DVec3| {
         let row = |matrix: &DMat4| matrix.transpose().z_axis.dot(point.extend(1.0));
         let part = (row(&moved) - row(&plain)) / plain.transpose().z_axis.dot(position.extend(1.0));
         position.distance(point) * part / (1.0 + part)
     };
-    let all: Vec<f64> = focus.visible().vertices().iter().map(|&point| by(point)).collect();
+    let all: Vec<f64> = focus.receiver_volume().vertices().iter().map(|&point| by(point)).collect();
     let (least, most) =
         (all.iter().copied().fold(f64::INFINITY, f64::min), all.iter().copied().fold(0.0, f64::max));
     // Off the axis of the map by up to 60°, distance is up to twice what it is along the axis.
@@ -148,14 +153,14 @@ fn a_world_distance_under_a_lamp_is_a_chord() {
 
 #[test]
 fn offsets_that_make_no_sense_are_refused() {
-    let refused = |offset: Result<Offset, InputError>| {
+    let refused = |offset: Result<ReceiverOffset, InputError>| {
         let error = offset.expect_err("no sense");
         (error.field, error.problem)
     };
     let error = |field, problem| (field, problem);
-    assert_eq!(refused(Offset::world(f64::NAN)), error("distance", Problem::NotFinite));
-    assert_eq!(refused(Offset::world(1e13)), error("distance", Problem::TooLarge));
-    assert_eq!(refused(Offset::relative(f64::INFINITY)), error("part", Problem::NotFinite));
-    assert_eq!(refused(Offset::relative(-0.6)), error("part", Problem::TooSmall));
-    assert_eq!(refused(Offset::depth(f64::NEG_INFINITY)), error("depth", Problem::NotFinite));
+    assert_eq!(refused(ReceiverOffset::world(f64::NAN)), error("distance", InputErrorKind::NotFinite));
+    assert_eq!(refused(ReceiverOffset::world(1e13)), error("distance", InputErrorKind::TooLarge));
+    assert_eq!(refused(ReceiverOffset::relative(f64::INFINITY)), error("part", InputErrorKind::NotFinite));
+    assert_eq!(refused(ReceiverOffset::relative(-0.6)), error("part", InputErrorKind::TooSmall));
+    assert_eq!(refused(ReceiverOffset::depth(f64::NEG_INFINITY)), error("depth", InputErrorKind::NotFinite));
 }

@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use glam::Vec4Swizzles;
 use proptest::prelude::*;
-use shadowfit::{ClipSpace, DepthBias, DepthFormat, Outcome};
+use shadowfit::{ClipSpace, DepthFormat, Outcome, depth::DepthBias};
 
 use super::arbitrary::{Together, case, points_of, run, settings};
 use super::simulate::{Card, UNITS, drawing, margin};
@@ -18,7 +18,7 @@ fn no_plane_shadows_itself() {
         let Outcome::Map(map) = focus.fit(&settings) else { return };
         let card = Card::new(&map);
         let bias = map.bias(how.format, how.reach).expect("a legal reach");
-        for (i, point) in points_of(&focus.visible(), seed).into_iter().enumerate() {
+        for (i, point) in points_of(&focus.receiver_volume(), seed).into_iter().enumerate() {
             if !together.is_served(point) {
                 continue;
             }
@@ -48,14 +48,14 @@ fn less_is_not_enough() {
             of.set(of.get() + 1);
             bad.set(bad.get() + u32::from(margin < 0.0));
         };
-        for (i, point) in points_of(&focus.visible(), seed).into_iter().enumerate() {
+        for (i, point) in points_of(&focus.receiver_volume(), seed).into_iter().enumerate() {
             let seed = seed.wrapping_add(i as u64);
             if !together.is_served(point) {
                 continue;
             }
             let margin = |bias: &DepthBias| margin(&card, &together.light, point, bias, &how, seed);
             if how.lean > 3.0 && how.format != DepthFormat::Unorm8 {
-                count(&steep, &with_half, margin(&DepthBias { slope: 0.5 * bias.slope, ..bias }));
+                count(&steep, &with_half, margin(&DepthBias { slope_scale: 0.5 * bias.slope_scale, ..bias }));
             }
             if how.lean == 0.0 && how.format == DepthFormat::Float32 {
                 let without = DepthBias { receiver: 0.0, relative: 0.0, ..bias };
@@ -78,18 +78,18 @@ fn places_are_as_quiet_as_the_window_says() {
         let focus = together.focus();
         let Outcome::Map(map) = focus.fit(&settings) else { return };
         let card = Card::new(&map);
-        for point in points_of(&focus.visible(), seed) {
+        for point in points_of(&focus.receiver_volume(), seed) {
             if !together.is_served(point) {
                 continue;
             }
             // Where f32 loses half of w there is no bound.
-            let rows = map.shadow_from_world_in(ClipSpace::WGPU).transpose();
+            let rows = map.clip_from_world_in(ClipSpace::WGPU).transpose();
             let (w, origin) = (rows.w_axis, card.origin);
             let terms = w.xyz().abs().dot((point - origin).abs()) + w.dot(origin.extend(1.0)).abs();
             if UNITS * terms > 0.5 * w.dot(point.extend(1.0)) {
                 continue;
             }
-            let off = card.place_in_f32(&map.texture_matrix(), point) - card.place(point);
+            let off = card.place_in_f32(&map.receiver_matrix(), point) - card.place(point);
             let (off, noise) = (off.truncate().abs().max_element(), map.place_rounding(point));
             assert!(noise <= map.window().rounding);
             assert!(off <= noise, "{point}: {off} texels, noise {noise}");

@@ -4,7 +4,11 @@ use std::f64::consts::TAU;
 
 use glam::{DMat4, DVec2, DVec3, DVec4, Mat4, Vec4Swizzles};
 use proptest::prelude::*;
-use shadowfit::{ClipSpace, DepthBias, DepthFormat, DepthRange, Light, Map, TextureOrigin, YAxis};
+use shadowfit::{
+    ClipSpace, DepthFormat, Light, ShadowMap,
+    depth::DepthBias,
+    input::{DepthRange, TextureOrigin, YAxis},
+};
 
 use super::FORMATS;
 use super::arbitrary::{Numbers, sides};
@@ -14,7 +18,7 @@ pub(crate) const UNITS: f64 = 8.0 / 16_777_216.0;
 
 /// A map on a card: places in texels, counted as its texture coordinates are, and depths as stored.
 pub(crate) struct Card<'a> {
-    map: &'a Map,
+    map: &'a ShadowMap,
     /// What positions are relative to.
     pub(crate) origin: DVec3,
     /// World to texture space, exact.
@@ -25,7 +29,7 @@ pub(crate) struct Card<'a> {
 }
 
 impl<'a> Card<'a> {
-    pub(crate) fn new(map: &'a Map) -> Self {
+    pub(crate) fn new(map: &'a ShadowMap) -> Self {
         let origin = map.origin();
         let sides = sides(map.settings());
         let reversed = map.settings().clip().depth.is_reversed();
@@ -47,7 +51,7 @@ impl<'a> Card<'a> {
     /// down as `up` says.
     fn corner(&self, point: DVec3, up: [bool; 2]) -> DVec3 {
         let clip = self.map.settings().clip();
-        let at = self.map.matrix() * (point - self.origin).as_vec3().extend(1.0);
+        let at = self.map.caster_matrix() * (point - self.origin).as_vec3().extend(1.0);
         let at = at.xyz() / at.w;
         let v_up = clip.y == YAxis::Down || clip.texture_origin == TextureOrigin::BottomLeft;
         let (x, y) = (0.5 + 0.5 * at.x, if v_up { 0.5 + 0.5 * at.y } else { 0.5 - 0.5 * at.y });
@@ -76,7 +80,7 @@ impl<'a> Card<'a> {
 
     /// Whether f32 moves a point by no more than the map says of what is visible, and across by no more than `places`.
     fn is_quiet(&self, point: DVec3, places: f64) -> bool {
-        let rows = self.map.shadow_from_world_in(ClipSpace::WGPU).transpose();
+        let rows = self.map.clip_from_world_in(ClipSpace::WGPU).transpose();
         let w = rows.w_axis.dot(point.extend(1.0));
         let of = |row: DVec4| {
             let terms = row.xyz().abs().dot((point - self.origin).abs()) + row.dot(self.origin.extend(1.0)).abs();
@@ -203,7 +207,7 @@ pub(crate) fn margin(
     let deeper = DVec2::new((depth(DVec2::X)? - here).signum(), (depth(DVec2::Y)? - here).signum());
     let inside = how.reach - bias.places * numbers.part() - 1e-3 * numbers.part();
     let receiver = card.on_plane(at_middle, normal, middle + deeper * inside)?;
-    let texture = map.texture_matrix_with(&bias.offset());
+    let texture = map.receiver_matrix_with(&bias.offset());
     let read = card.place_in_f32(&texture, receiver);
     let is_read = (read.truncate() - middle).abs().max_element() <= how.reach;
     if !is_read || !card.is_quiet(receiver, bias.places) {
@@ -234,7 +238,7 @@ pub(crate) fn margin(
     // The least that a card may add: its smallest unit, the larger of the slopes.
     let (depth, gradient) = triangle.depth(middle);
     let unit = *bias.format.bias_unit(depth.clamp(0.0, 1.0)).start();
-    let added = f64::from(bias.constant) * unit + f64::from(bias.slope) * gradient.abs().max_element();
+    let added = f64::from(bias.constant) * unit + f64::from(bias.slope_scale) * gradient.abs().max_element();
     let stored = quantised(bias.format, depth + added, how.round, card.reversed);
     let compared = read.z.clamp(0.0, 1.0);
     let compared = match how.round {

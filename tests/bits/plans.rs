@@ -3,7 +3,11 @@
 use crate::setups::{SetUp, setups};
 use crate::table::{Bits, Numbers};
 use shadowfit::glam::Vec3;
-use shadowfit::{Aabb, Budget, Object, Objects, Projection, Solidity, Surface, plan};
+use shadowfit::{
+    Aabb,
+    mesh::Solidity,
+    plan::{Budget, Object, Objects, Projection, Surface, plan},
+};
 
 /// So finely is everything cut, for maps that bend lines.
 const EDGE: f32 = 1.0 / 1024.0;
@@ -33,7 +37,7 @@ pub(crate) fn plans() -> String {
         [plan.view().near(), plan.view().far()].put(&mut numbers);
         for pass in light.passes() {
             match pass.projection() {
-                Projection::Frustum(map) | Projection::Face(_, map) => map.shadow_from_world().put(&mut numbers),
+                Projection::Frustum(map) | Projection::Face(_, map) => map.clip_from_world().put(&mut numbers),
                 Projection::Paraboloid(map) => map.paraboloid_from_world().put(&mut numbers),
             }
             pass.bias().copied().put(&mut numbers);

@@ -5,8 +5,11 @@
 
 use shadowfit::glam::{DMat4, DVec3, DVec4, Vec3};
 use shadowfit::{
-    Aabb, ClipSpace, ConvexScene, CubeFace, DepthRange, Effort, Form, Light, Origin, Plane, Scene, Settings, Shift,
-    TextureOrigin, View, Warp, YAxis,
+    Aabb, ClipSpace, Effort, FocusForm, Light, Origin, Scene, Settings, View, Warp,
+    focus::Plane,
+    input::{ConvexScene, DepthRange, TextureOrigin, YAxis},
+    omni::CubeFace,
+    warp::Shift,
 };
 
 /// A view, a light, a scene and settings, named.
@@ -214,7 +217,7 @@ fn settings(number: usize) -> Settings {
     ];
     let sizes = [(2048, 1080), (1000, 720), (512, 2160)];
     let (size, height) = sizes[number / 2 % sizes.len()];
-    let shifts = [Shift::Back(Form::Paper), Shift::Back(Form::Tight), Shift::None];
+    let shifts = [Shift::Back(FocusForm::ViewHull), Shift::Back(FocusForm::ReceiverHull), Shift::None];
     let settings = Settings::new(size, height).and_then(|settings| settings.with_border([1, 0, 4][number / 3 % 3]));
     settings
         .expect("settings")

@@ -6,8 +6,12 @@
 use crate::setups::{SetUp, casters, setups};
 use shadowfit::glam::{DMat4, DVec2, DVec3, DVec4, Mat4, Vec4};
 use shadowfit::{
-    Body, ClipSpace, ComparisonTolerance, DepthBias, DepthFormat, DepthResolution, Filter, Focus, Footprint, Form,
-    Light, Map, Offset, Outcome, Paraboloid, Plane, Sampled, Splat, TangentPlane, View, VirtualCamera, classify,
+    ClipSpace, DepthFormat, Filter, Focus, FocusForm, Light, Outcome, ShadowMap, View,
+    depth::{ComparisonTolerance, DepthBias, ReceiverOffset, ShadowSample, Splat, TangentPlane},
+    focus::{ConvexBody, Plane},
+    map::{DepthResolution, Footprint},
+    omni::Paraboloid,
+    warp::{VirtualCamera, classify},
 };
 use std::fmt::Write;
 
@@ -117,12 +121,12 @@ put_as! {
         f.shortest()];
     VirtualCamera: c => [c.shift, c.eye.x, c.eye.y, c.eye.z, c.near, c.far];
     DepthResolution: r => [r.unorm8, r.unorm16, r.unorm24, r.float32];
-    DepthBias: b => [f64::from(b.constant), b.slope.into(), b.receiver, b.relative, b.most, b.places];
+    DepthBias: b => [f64::from(b.constant), b.slope_scale.into(), b.receiver, b.relative, b.most, b.places];
     Splat: s => [s.centre, s.half, s.covering().half, DVec2::splat(s.diameter())];
-    Sampled: s => [s.share, f64::from(s.rule as u8)];
+    ShadowSample: s => [s.share, f64::from(s.rule as u8)];
 }
 
-impl Bits for Body {
+impl Bits for ConvexBody {
     fn put(&self, numbers: &mut Numbers) {
         self.vertices().len().put(numbers);
         self.vertices().iter().for_each(|vertex| vertex.put(numbers));
@@ -151,7 +155,7 @@ fn block(setup: &SetUp, full: bool) -> String {
     text += &line("bodies", &|numbers| put_bodies(&focus, numbers));
     match &outcome {
         Outcome::Map(map) => {
-            for column in map.matrix().to_cols_array_2d() {
+            for column in map.caster_matrix().to_cols_array_2d() {
                 let [x, y, z, w] = column.map(f32::to_bits);
                 text += &format!("matrix       {x:08x} {y:08x} {z:08x} {w:08x}\n");
             }
@@ -189,9 +193,9 @@ fn put_light(view: &View, light: &Light, numbers: &mut Numbers) {
 }
 
 fn put_bodies(focus: &Focus<'_>, numbers: &mut Numbers) {
-    focus.visible().put(numbers);
-    focus.body(Form::Paper).put(numbers);
-    let body = focus.body(Form::Tight);
+    focus.receiver_volume().put(numbers);
+    focus.caster_volume(FocusForm::ViewHull).put(numbers);
+    let body = focus.caster_volume(FocusForm::ReceiverHull);
     body.put(numbers);
     let (boxes, balls) = casters(focus.view());
     let culler = body.culler();
@@ -202,23 +206,27 @@ fn put_bodies(focus: &Focus<'_>, numbers: &mut Numbers) {
     meets.iter().for_each(|meets| meets.put(numbers));
 }
 
-fn put_matrices(map: &Map, numbers: &mut Numbers) {
-    map.shadow_from_world().put(numbers);
-    map.texture_matrix().put(numbers);
+fn put_matrices(map: &ShadowMap, numbers: &mut Numbers) {
+    map.clip_from_world().put(numbers);
+    map.receiver_matrix().put(numbers);
     map.texture_from_world().put(numbers);
     map.linear_depth().put(numbers);
     for clip in [ClipSpace::WGPU, ClipSpace::VULKAN, ClipSpace::OPENGL] {
-        [clip, clip.reversed()].map(|clip| map.shadow_from_world_in(clip)).put(numbers);
+        [clip, clip.reversed()].map(|clip| map.clip_from_world_in(clip)).put(numbers);
     }
-    let offsets = [Offset::world(0.0625), Offset::relative(0.015_625), Offset::depth(0.000_976_562_5)];
+    let offsets = [
+        ReceiverOffset::world(0.0625),
+        ReceiverOffset::relative(0.015_625),
+        ReceiverOffset::depth(0.000_976_562_5),
+    ];
     for offset in offsets {
         let offset = offset.expect("an offset");
-        map.texture_matrix_with(&offset).put(numbers);
+        map.receiver_matrix_with(&offset).put(numbers);
         map.texture_from_world_with(&offset).put(numbers);
     }
 }
 
-fn put_figures(map: &Map, focus: &Focus<'_>, numbers: &mut Numbers) {
+fn put_figures(map: &ShadowMap, focus: &Focus<'_>, numbers: &mut Numbers) {
     let (window, depth) = (map.window(), map.depth());
     [window.width, window.height, window.padding.0, window.padding.1, window.rounding].put(numbers);
     [depth.near, depth.far, depth.rounding].put(numbers);
@@ -232,26 +240,23 @@ fn put_figures(map: &Map, focus: &Focus<'_>, numbers: &mut Numbers) {
 /// A plane that is neither level nor upright, and one that most lights graze.
 const NORMALS: [DVec3; 2] = [DVec3::new(0.25, 1.0, -0.5), DVec3::new(1.0, 0.007_812_5, 0.0)];
 
-fn put_bias(map: &Map, focus: &Focus<'_>, numbers: &mut Numbers) {
-    for (format, filter) in FORMATS.into_iter().zip([
-        Filter::Nearest,
-        Filter::Hardware,
-        Filter::PercentageCloser(3),
-        Filter::PercentageCloser(8),
-    ]) {
+fn put_bias(map: &ShadowMap, focus: &Focus<'_>, numbers: &mut Numbers) {
+    for (format, filter) in
+        FORMATS.into_iter().zip([Filter::Nearest, Filter::Hardware2x2, Filter::Pcf(3), Filter::Pcf(8)])
+    {
         let bias = map.bias(format, filter.reach()).expect("a bias");
         bias.put(numbers);
         map.texture_from_world_with(&bias.offset()).put(numbers);
         let tolerance = map.comparison_tolerance(format, filter.reach()).expect("a tolerance");
         [tolerance.constant, tolerance.over_w, tolerance.most, tolerance.slope].put(numbers);
-        for point in focus.visible().vertices() {
+        for point in focus.receiver_volume().vertices() {
             NORMALS.map(|normal| map.bias_distance(*point, normal, &bias)).put(numbers);
         }
     }
 }
 
-fn put_points(map: &Map, focus: &Focus<'_>, numbers: &mut Numbers) {
-    let visible = focus.visible();
+fn put_points(map: &ShadowMap, focus: &Focus<'_>, numbers: &mut Numbers) {
+    let visible = focus.receiver_volume();
     let size = map.window().width.min(map.depth().near.abs() + 1.0);
     for &point in visible.vertices() {
         map.footprint(point).put(numbers);
@@ -275,7 +280,7 @@ fn put_points(map: &Map, focus: &Focus<'_>, numbers: &mut Numbers) {
 }
 
 fn put_paraboloid(map: &Paraboloid, focus: &Focus<'_>, numbers: &mut Numbers) {
-    map.matrix().put(numbers);
+    map.caster_matrix().put(numbers);
     map.paraboloid_from_world().put(numbers);
     map.clip_scale().to_array().put(numbers);
     map.texture_scale().put(numbers);
@@ -285,8 +290,8 @@ fn put_paraboloid(map: &Paraboloid, focus: &Focus<'_>, numbers: &mut Numbers) {
     [0.125, 1.5].map(|angle| map.edge_error(angle)).put(numbers);
     let bias = map.bias(DepthFormat::Unorm24, 1.5).expect("a bias");
     bias.put(numbers);
-    map.receiver_matrix(&bias.offset()).put(numbers);
-    for &point in focus.visible().vertices() {
+    map.receiver_matrix_with(&bias.offset()).put(numbers);
+    for &point in focus.receiver_volume().vertices() {
         let place = map.project(point);
         place.put(numbers);
         place.map(|place| map.unproject(place)).put(numbers);

@@ -3,7 +3,7 @@
 use crate::arbitrary::{rotation, run};
 use glam::{DMat4, DQuat, DVec2, DVec3, DVec4, Mat4, Quat, Vec3};
 use proptest::prelude::*;
-use shadowfit::{ClipSpace, Light, Map, Scene, Settings, View, Warp, fit};
+use shadowfit::{ClipSpace, Light, Scene, Settings, ShadowMap, View, Warp, fit};
 
 const HEIGHT: u32 = 1080;
 const ASPECT: f64 = 16.0 / 9.0;
@@ -23,7 +23,7 @@ fn projection(fov_y: f64, near: f64, far: f64, middle: [f64; 2], offset: [f64; 2
     .as_mat4()
 }
 
-fn stable(eye_from_world: Mat4, projection: Mat4, sun: DVec3) -> Map {
+fn stable(eye_from_world: Mat4, projection: Mat4, sun: DVec3) -> ShadowMap {
     let view = View::from_matrices(eye_from_world.as_dmat4(), projection.as_dmat4(), ClipSpace::WGPU);
     let settings = Settings::new(2048, HEIGHT).expect("legal sizes").with_warp(Warp::Stable);
     let scene = Scene::from_box((-400.0, 0.0, -400.0), (400.0, 60.0, 400.0)).expect("sound");
@@ -32,8 +32,8 @@ fn stable(eye_from_world: Mat4, projection: Mat4, sun: DVec3) -> Map {
 }
 
 /// The rows of x and y of the matrix, to the bit: extent, grid and place.
-fn rows(map: &Map) -> [[u64; 4]; 2] {
-    let rows = map.shadow_from_world_in(ClipSpace::WGPU).transpose();
+fn rows(map: &ShadowMap) -> [[u64; 4]; 2] {
+    let rows = map.clip_from_world_in(ClipSpace::WGPU).transpose();
     [rows.x_axis, rows.y_axis].map(|row| row.to_array().map(f64::to_bits))
 }
 

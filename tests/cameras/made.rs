@@ -6,7 +6,10 @@
 use crate::arbitrary::{clip_space, rotation, run};
 use glam::{DMat4, DQuat, DVec3, DVec4, Mat4};
 use proptest::prelude::*;
-use shadowfit::{ClipSpace, DepthRange, InputError, View, YAxis};
+use shadowfit::{
+    ClipSpace, InputError, View,
+    input::{DepthRange, YAxis},
+};
 use std::cell::RefCell;
 
 /// A camera in exact numbers.

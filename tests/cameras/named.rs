@@ -1,7 +1,10 @@
 //! Cameras that were refused, or came out as others, each with the right value.
 
 use glam::{DMat4, DQuat, DVec3, DVec4, Mat4, Quat, Vec3, Vec4};
-use shadowfit::{ClipSpace, Focus, Form, Lens, Light, Problem, Scene, Tangents, View};
+use shadowfit::{
+    ClipSpace, Focus, FocusForm, Light, Scene, View,
+    input::{InputErrorKind, Lens, Tangents},
+};
 
 fn lens32(near: f32, far: f32) -> Mat4 {
     let depth = far / (near - far);
@@ -101,10 +104,10 @@ fn tangents_keep_near_and_far() {
         View::from_tangents(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, tangents, near, far)
             .map_err(|error| (error.field, error.problem))
     };
-    assert_eq!(refused(0.5, -0.5), Err(("frame", Problem::OutOfOrder)));
-    assert_eq!(refused(f64::NAN, 0.5), Err(("frame", Problem::NotFinite)));
+    assert_eq!(refused(0.5, -0.5), Err(("frame", InputErrorKind::OutOfOrder)));
+    assert_eq!(refused(f64::NAN, 0.5), Err(("frame", InputErrorKind::NotFinite)));
     let angles = Tangents::from_angles(-60.0, 0.5, -0.5, 0.5).map_err(|error| (error.field, error.problem));
-    assert_eq!(angles, Err(("left", Problem::AngleOutOfRange)));
+    assert_eq!(angles, Err(("left", InputErrorKind::AngleOutOfRange)));
 }
 
 /// A range of depths that has a rounding, or any amount, more than the view's is drawn in.
@@ -120,7 +123,7 @@ fn narrowed_is_drawn_in_to_the_view() {
     assert_eq!((narrowed.near(), narrowed.far()), (0.2, view.far()));
     for (near, far, field) in [(200.1, 300.0, "near"), (0.01, 0.05, "far")] {
         let error = view.narrowed(near, far).expect_err("it misses the view");
-        assert_eq!((error.field, error.problem), (field, Problem::OutsideView));
+        assert_eq!((error.field, error.problem), (field, InputErrorKind::OutsideView));
     }
 }
 
@@ -135,7 +138,10 @@ fn windows_of_every_shape() {
             let view = View::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, fov_y, aspect, 0.1, 100.0);
             let view = view.expect("a camera");
             let again = View::from_clip_from_world(view.clip_from_world(), ClipSpace::OPENGL).expect("a camera");
-            assert!(!Focus::new(&again, &light, &scene).body(Form::Tight).is_empty(), "{aspect} {degrees}");
+            assert!(
+                !Focus::new(&again, &light, &scene).caster_volume(FocusForm::ReceiverHull).is_empty(),
+                "{aspect} {degrees}"
+            );
         }
     }
     for aspect in [0.0, f64::INFINITY, f64::NAN] {

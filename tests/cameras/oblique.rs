@@ -3,7 +3,9 @@
 use crate::arbitrary::{points_of, rotation, run};
 use glam::{DMat4, DVec3, DVec4};
 use proptest::prelude::*;
-use shadowfit::{ClipSpace, Focus, Form, Light, Outcome, Plane, Problem, Scene, Settings, View, Warp};
+use shadowfit::{
+    ClipSpace, Focus, FocusForm, Light, Outcome, Scene, Settings, View, Warp, focus::Plane, input::InputErrorKind,
+};
 
 /// Lengyel's projection: the near plane is `plane`, in eye space, and the far plane is scaled to just hold the frustum.
 fn oblique(lens: DMat4, plane: DVec4) -> DMat4 {
@@ -99,8 +101,8 @@ fn nothing_of_h_is_lost() {
         };
         let light = light.expect("sound");
         let focus = Focus::new(&view, &light, &scene);
-        let visible = focus.visible();
-        let bodies = [focus.body(Form::Paper), focus.body(Form::Tight)];
+        let visible = focus.receiver_volume();
+        let bodies = [focus.caster_volume(FocusForm::ViewHull), focus.caster_volume(FocusForm::ReceiverHull)];
         for warp in [Warp::Uniform, Warp::Perspective, Warp::LightSpace, Warp::default()] {
             let outcome = focus.fit(&Settings::default().with_warp(warp));
             for point in points_of(&visible, seed) {
@@ -114,12 +116,12 @@ fn nothing_of_h_is_lost() {
                         continue;
                     }
                     for body in &bodies {
-                        assert!(body.meets_box(caster, caster), "{mirror:?}: {caster} before {point}");
+                        assert!(body.intersects_aabb(caster, caster), "{mirror:?}: {caster} before {point}");
                     }
                     if let Outcome::Map(map) = outcome
                         && light.position().is_none_or(|at| at.distance(caster) > 0.1)
                     {
-                        let place = map.shadow_from_world_in(ClipSpace::WGPU).project_point3(caster);
+                        let place = map.clip_from_world_in(ClipSpace::WGPU).project_point3(caster);
                         assert!(
                             place.truncate().abs().max_element() <= 1.0,
                             "{mirror:?}, {warp:?}: {caster} at {place}"
@@ -140,7 +142,7 @@ fn a_mirror_that_faces_away() {
     // What lies behind the camera, by a near plane behind it.
     rows.z_axis = DVec4::new(0.0, 0.0, 1.0, -5.0) - rows.w_axis;
     let view = View::from_clip_from_world(rows.transpose(), ClipSpace::OPENGL);
-    assert_eq!(view.map_err(|error| (error.field, error.problem)), Err(("near", Problem::OutsideView)));
+    assert_eq!(view.map_err(|error| (error.field, error.problem)), Err(("near", InputErrorKind::OutsideView)));
 }
 
 /// A mirror on the floor that the camera looks at from above: R begins at the mirror, and narrowing leaves it there.
@@ -154,11 +156,12 @@ fn a_mirror_of_a_known_place() {
     let scene = Scene::from_box((-20.0, -3.0, -20.0), (20.0, 3.0, 20.0)).expect("sound");
     let light = Light::directional((0.3, 1.0, 0.2)).expect("sound");
     for view in [view, view.narrowed(3.0, 15.0).expect("a part of it")] {
-        let (min, max) = Focus::new(&view, &light, &scene).visible().bounds().expect("something is visible");
+        let (min, max) =
+            Focus::new(&view, &light, &scene).receiver_volume().bounds().expect("something is visible");
         assert!(min.y.abs() < 1e-12 && (max.y - 3.0).abs() < 1e-12, "{min} {max}");
     }
     // Without it what lies below counts too.
-    let (min, _) = Focus::new(&whole, &light, &scene).visible().bounds().expect("something is visible");
+    let (min, _) = Focus::new(&whole, &light, &scene).receiver_volume().bounds().expect("something is visible");
     assert!(min.y < -1.9, "{min}");
     // Depth begins where the uppermost line of sight meets the mirror.
     let steepest = whole.forward() + whole.up() * 0.5_f64.tan();

@@ -5,7 +5,9 @@ use crate::claims::shared::{Tried, lose_nothing};
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use shadowfit::{
-    ClipSpace, Focus, Light, Origin, Outcome, Problem, Scene, Settings, SharedFocus, Tangents, View, Warp,
+    ClipSpace, Focus, Light, Origin, Outcome, Scene, Settings, View, Warp,
+    focus::SharedFocus,
+    input::{InputErrorKind, Tangents},
 };
 use std::cell::Cell;
 
@@ -36,8 +38,8 @@ fn two_eyes_share_a_map() {
         let settings = Settings::default();
         let outside = |outcome: Outcome| {
             let map = *outcome.map().expect("one map does");
-            let place = move |point: DVec3| map.shadow_from_world_in(ClipSpace::WGPU).project_point3(point);
-            let points = shared.iter().flat_map(|part| points_of(&part.visible(), 7));
+            let place = move |point: DVec3| map.clip_from_world_in(ClipSpace::WGPU).project_point3(point);
+            let points = shared.iter().flat_map(|part| points_of(&part.receiver_volume(), 7));
             points.filter(|&point| place(point).truncate().abs().max_element() > 1.0).count()
         };
         let uniform = settings.with_warp(Warp::Uniform);
@@ -107,10 +109,10 @@ fn a_stable_map_of_two_eyes_keeps_its_grid() {
         let views = eyes(DVec3::new(1.3 * at, 1.7, -at), turn, 0.09, 0.9);
         let shared = SharedFocus::new(&views, &light, &scene).expect("two views");
         let map = *shared.fit(&settings).map().expect("one map does");
-        assert_eq!(map.refusal(), None);
+        assert_eq!(map.fallback(), None);
         for part in shared.iter() {
-            for &point in part.visible().vertices() {
-                let place = map.shadow_from_world_in(ClipSpace::WGPU).project_point3(point);
+            for &point in part.receiver_volume().vertices() {
+                let place = map.clip_from_world_in(ClipSpace::WGPU).project_point3(point);
                 assert!(place.truncate().abs().max_element() <= 1.0, "{place}");
             }
         }
@@ -128,7 +130,7 @@ fn numbers_of_views() {
     let refused = |views: &[View]| {
         SharedFocus::new(views, &light, &scene).map(|_| ()).map_err(|error| (error.field, error.problem))
     };
-    assert_eq!(refused(&[]), Err(("views", Problem::Empty)));
+    assert_eq!(refused(&[]), Err(("views", InputErrorKind::Empty)));
     assert_eq!(refused(&[view; SharedFocus::MAX]), Ok(()));
-    assert_eq!(refused(&[view; SharedFocus::MAX + 1]), Err(("views", Problem::TooMany)));
+    assert_eq!(refused(&[view; SharedFocus::MAX + 1]), Err(("views", InputErrorKind::TooMany)));
 }

@@ -2,9 +2,14 @@
 
 use glam::{DMat4, DVec3, Vec3, Vec4};
 use shadowfit::{
-    Aabb, ClipSpace, ComparisonTolerance, ConvexScene, CubeFace, Cuts, DAabb, DepthFormat, DepthRange, Filter,
-    Focus, Form, InputError, Layout, Light, Map, Offset, Origin, Outcome, Paraboloid, Plane, Scene, Settings,
-    Shift, Slices, Split, TangentPlane, Tangents, TextureOrigin, View, Warp, YAxis,
+    Aabb, ClipSpace, DepthFormat, Filter, Focus, FocusForm, InputError, Light, Origin, Outcome, Scene, Settings,
+    ShadowMap, View, Warp,
+    cascades::{CascadeLayout, CascadeSplits, Cascades, SplitScheme},
+    depth::{ComparisonTolerance, ReceiverOffset, TangentPlane},
+    focus::Plane,
+    input::{ConvexScene, DAabb, DepthRange, Tangents, TextureOrigin, YAxis},
+    omni::{CubeFace, Paraboloid},
+    warp::Shift,
 };
 
 use super::results::exercise;
@@ -43,9 +48,9 @@ impl Bits<'_> {
             f64::EPSILON,
             -0.0,
             1e-300,
-            shadowfit::MAX_COORDINATE,
-            -shadowfit::MAX_COORDINATE,
-            shadowfit::MIN_DISTANCE,
+            shadowfit::input::MAX_COORDINATE,
+            -shadowfit::input::MAX_COORDINATE,
+            shadowfit::input::MIN_DISTANCE,
             std::f64::consts::FRAC_PI_2,
         ];
         match self.below(8) {
@@ -145,7 +150,7 @@ impl Bits<'_> {
             1 => settings.with_map_sides(self.whole(), self.whole())?,
             _ => settings,
         };
-        let shifts = [Shift::None, Shift::Back(Form::Paper), Shift::Back(Form::Tight)];
+        let shifts = [Shift::None, Shift::Back(FocusForm::ViewHull), Shift::Back(FocusForm::ReceiverHull)];
         Ok(settings
             .with_border(self.whole())?
             .with_warp(WARPS[self.below(WARPS.len())])
@@ -167,7 +172,7 @@ pub(crate) fn take_any_bits(bytes: &[u8]) {
     match bits.below(3) {
         0 => {
             let _: Result<_, InputError> =
-                Offset::world(bits.number()).and_then(|offset| offset.and_depth(bits.number()));
+                ReceiverOffset::world(bits.number()).and_then(|offset| offset.and_depth(bits.number()));
             solids(&mut bits);
         }
         1 => refiner(&mut bits),
@@ -265,7 +270,7 @@ fn with_scene(
 }
 
 fn culled(bits: &mut Bits<'_>, focus: &Focus<'_>) {
-    let body = focus.body(Form::Tight);
+    let body = focus.caster_volume(FocusForm::ReceiverHull);
     let (boxes, balls) = (bits.boxes(), bits.list(4, |bits| bits.single().extend(bits.number() as f32)));
     let mut meets = [false; 4];
     body.culler().boxes(&boxes, &mut meets[..boxes.len()]);
@@ -273,11 +278,11 @@ fn culled(bits: &mut Bits<'_>, focus: &Focus<'_>) {
         let (min, max) = (one.min.as_dvec3(), one.max.as_dvec3());
         // Bulk culling is less exact, and to the side of keeping.
         let is_sound = min.is_finite() && max.is_finite() && min.cmple(max).all();
-        assert!(!is_sound || meets || !body.meets_box(min, max), "{one:?} is dropped in bulk");
+        assert!(!is_sound || meets || !body.intersects_aabb(min, max), "{one:?} is dropped in bulk");
     }
     body.culler().spheres(&balls, &mut meets[..balls.len()]);
     balls.iter().for_each(|ball: &Vec4| {
-        std::hint::black_box(body.meets_sphere(ball.truncate().as_dvec3(), ball.w.into()));
+        std::hint::black_box(body.intersects_sphere(ball.truncate().as_dvec3(), ball.w.into()));
     });
     std::hint::black_box(CubeFace::of(bits.point()));
     assert!((0.0..=CubeFace::MAX_OVERLAP).contains(&CubeFace::overlap(bits.number(), bits.whole(), bits.whole())));
@@ -287,7 +292,7 @@ const FORMATS: [DepthFormat; 4] =
     [DepthFormat::Unorm8, DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32];
 
 /// Asks a map about any point.
-fn asked(bits: &mut Bits<'_>, map: &Map) {
+fn asked(bits: &mut Bits<'_>, map: &ShadowMap) {
     let (point, normal) = (bits.point(), bits.point());
     let format = FORMATS[bits.below(4)];
     if let Some(plane) = TangentPlane::new(map, point, normal) {
@@ -307,47 +312,50 @@ fn asked(bits: &mut Bits<'_>, map: &Map) {
     std::hint::black_box((map.depth_slopes(point, normal), map.depth_rounding(point), map.place_rounding(point)));
     std::hint::black_box((map.depth_resolution(point, format), map.linear_depth_resolution(point, format)));
     if let Ok(bias) = map.bias(format, bits.number()) {
-        assert!(bias.slope.is_finite() && bias.receiver.is_finite() && bias.relative.is_finite(), "{bias:?}");
+        assert!(bias.slope_scale.is_finite() && bias.receiver.is_finite() && bias.relative.is_finite(), "{bias:?}");
         std::hint::black_box(map.bias_distance(point, normal, &bias));
         let (offset, most) = (map.normal_offset(point, normal, &bias), map.normal_offset_at(point, &bias));
         assert!(offset >= 0.0 && most >= 0.0, "{offset}, {most}");
-        assert!(map.texture_matrix_with(&bias.offset()).is_finite(), "{bias:?}");
+        assert!(map.receiver_matrix_with(&bias.offset()).is_finite(), "{bias:?}");
     }
     if let Ok(tolerance) = map.comparison_tolerance(format, bits.number()) {
         assert!(tolerance.to_array().into_iter().all(|part| part.is_finite() && part >= 0.0), "{tolerance:?}");
     }
     let offset = match bits.below(3) {
-        0 => Offset::world(bits.number()),
-        1 => Offset::relative(bits.number()),
-        _ => Offset::depth(bits.number()),
+        0 => ReceiverOffset::world(bits.number()),
+        1 => ReceiverOffset::relative(bits.number()),
+        _ => ReceiverOffset::depth(bits.number()),
     };
     if let Ok(offset) = offset.and_then(|offset| offset.and_depth(bits.number())) {
         assert!(map.texture_from_world_with(&offset).is_finite(), "{offset:?}");
-        assert!(map.shadow_from_world_with(&offset).is_finite(), "{offset:?}");
+        assert!(map.clip_from_world_with(&offset).is_finite(), "{offset:?}");
     }
 }
 
 /// Asks a paraboloid about any point.
 fn asked_paraboloid(bits: &mut Bits<'_>, map: &Paraboloid) {
     let (point, normal) = (bits.point(), bits.point());
-    assert!(map.matrix().is_finite() && map.paraboloid_from_world().is_finite(), "{map:?}");
+    assert!(map.caster_matrix().is_finite() && map.paraboloid_from_world().is_finite(), "{map:?}");
     assert!(map.clip_scale().is_finite() && map.texture_scale().is_finite(), "{map:?}");
     std::hint::black_box((map.project(point), map.unproject(normal), map.footprint(point), map.rounding(point)));
     std::hint::black_box((map.edge_error(bits.number()), map.edge_depth_error(point, normal), map.aliasing(point)));
     let angle = map.largest_edge(bits.number());
     assert!((0.0..=std::f64::consts::FRAC_PI_2).contains(&angle), "{angle}");
     if let Ok(bias) = map.bias(FORMATS[bits.below(4)], bits.number()) {
-        assert!(bias.slope.is_finite() && bias.receiver.is_finite(), "{bias:?}");
+        assert!(bias.slope_scale.is_finite() && bias.receiver.is_finite(), "{bias:?}");
         std::hint::black_box((map.bias_distance(point, normal, &bias), map.distance_slopes(point, normal)));
     }
 }
 
 /// Cuts a view anywhere, and asks its slices about any depth.
 fn sliced(bits: &mut Bits<'_>, view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) {
-    let split = [Split::Uniform, Split::Logarithmic, Split::Blended(bits.number())][bits.below(3)];
+    let split =
+        [SplitScheme::Uniform, SplitScheme::Logarithmic, SplitScheme::Practical(bits.number())][bits.below(3)];
     let (count, depths) = (bits.below(10), bits.list(9, Bits::number));
-    let cuts = [Cuts::Visible { count, split }, Cuts::View { count, split }, Cuts::At(&depths)][bits.below(3)];
-    let slices = match Slices::new(view, light, scene, cuts, bits.number()) {
+    let cuts =
+        [CascadeSplits::Visible { count, split }, CascadeSplits::View { count, split }, CascadeSplits::At(&depths)]
+            [bits.below(3)];
+    let slices = match Cascades::new(view, light, scene, cuts, bits.number()) {
         Ok(slices) => slices,
         Err(error) => {
             assert!(["count", "overlap", "split", "view", "cuts"].contains(&error.field), "{error}");
@@ -359,7 +367,7 @@ fn sliced(bits: &mut Bits<'_>, view: &View, light: &Light, scene: &Scene<'_>, se
     let maps = slices.fit(settings);
     let report = maps.report();
     assert!(!report.aliasing.is_nan() && !report.texel.is_nan(), "{report:?}");
-    for layout in [Layout::Array, Layout::Atlas] {
+    for layout in [CascadeLayout::Array, CascadeLayout::Atlas] {
         let uniform = maps.uniform(layout, |_| None);
         let floats = uniform.texture_from_origin.as_flattened().iter().chain(uniform.inner.as_flattened());
         assert!(floats.chain(&uniform.far).chain(&uniform.blend).all(|float| float.is_finite()), "{uniform:?}");
@@ -370,9 +378,9 @@ fn sliced(bits: &mut Bits<'_>, view: &View, light: &Light, scene: &Scene<'_>, se
 fn solids(bits: &mut Bits<'_>) {
     let positions = bits.list(8, Bits::point);
     let triangles = bits.list(12, |bits| [(); 3].map(|()| bits.below(9) as u32));
-    if let Ok(report) = shadowfit::Solidity::of(&positions, &triangles) {
+    if let Ok(report) = shadowfit::mesh::Solidity::of(&positions, &triangles) {
         assert!(report.sheet.is_none_or(|sheet| (0.0..=2.0).contains(&sheet.bend)), "{report:?}");
-        std::hint::black_box(shadowfit::Surface::from(&report));
+        std::hint::black_box(shadowfit::plan::Surface::from(&report));
     }
 }
 
@@ -381,10 +389,12 @@ fn solids(_: &mut Bits<'_>) {}
 
 #[cfg(feature = "spade")]
 fn refiner(bits: &mut Bits<'_>) {
-    let Ok(refiner) = shadowfit::Refiner::new(bits.triple(), bits.number(), bits.number()) else { return };
+    let Ok(refiner) = shadowfit::mesh::Tessellator::new(bits.triple(), bits.number(), bits.number()) else {
+        return;
+    };
     let positions = bits.list(6, Bits::point);
     let triangles = bits.list(4, |bits| [(); 3].map(|()| bits.below(7) as u32));
-    let Ok(refined) = refiner.with_limit(bits.below(200) as u32).refine(&positions, &triangles) else { return };
+    let Ok(refined) = refiner.with_limit(bits.below(200) as u32).tessellate(&positions, &triangles) else { return };
     let count = positions.len() + refined.added.len();
     assert_eq!(refined.triangles.len(), refined.sources.len());
     assert!(refined.triangles.iter().flatten().all(|&corner| (corner as usize) < count), "{refined:?}");
@@ -399,9 +409,9 @@ fn refiner(_: &mut Bits<'_>) {}
 
 #[cfg(feature = "std")]
 fn planned(bits: &mut Bits<'_>, view: &View, light: &Light, settings: &Settings) {
-    use shadowfit::{Budget, Object, Objects, Surface, plan};
+    use shadowfit::plan::{Budget, Object, Objects, Surface, plan};
 
-    let filters = [Filter::Nearest, Filter::Hardware, Filter::PercentageCloser(bits.below(256) as u8)];
+    let filters = [Filter::Nearest, Filter::Hardware2x2, Filter::Pcf(bits.below(256) as u8)];
     let Ok(budget) = Budget::new(*settings).with_aliasing(bits.number()) else { return };
     let budget = budget.with_format(FORMATS[bits.below(4)]).with_filter(filters[bits.below(3)]);
     let budget = budget.with_texels(bits.whole().into());
@@ -409,7 +419,7 @@ fn planned(bits: &mut Bits<'_>, view: &View, light: &Light, settings: &Settings)
         casts: bits.below(4) != 0,
         receives: bits.below(4) != 0,
         surface: [
-            Surface::Mesh(shadowfit::Solidity::Solid),
+            Surface::Mesh(shadowfit::mesh::Solidity::Watertight),
             Surface::FlatSheets,
             Surface::Points,
             Surface::default(),

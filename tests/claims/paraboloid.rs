@@ -1,7 +1,10 @@
 //! What a paraboloid map holds, and what f32 makes of it.
 
 use glam::{DVec3, Vec2, Vec3, Vec4, Vec4Swizzles};
-use shadowfit::{DepthFormat, Empty, Light, Origin, Paraboloid, Paraboloids, Settings};
+use shadowfit::{
+    DepthFormat, Empty, Light, Origin, Settings,
+    omni::{Paraboloid, Paraboloids},
+};
 
 use crate::arbitrary::{Case, Together, points_of};
 
@@ -19,7 +22,7 @@ pub(crate) struct Shader {
 }
 
 pub(crate) fn shader(map: &Paraboloid, position: Vec3) -> Shader {
-    let q = map.matrix() * position.extend(1.0);
+    let q = map.caster_matrix() * position.extend(1.0);
     let (clip_scale, texture_scale) = (map.clip_scale(), map.texture_scale());
     let distance = q.xyz().length();
     let divisor = (distance + q.z).max(1e-6 * distance + 1e-30);
@@ -38,7 +41,7 @@ pub(crate) fn carries_no_farther_than_it_says(case: &Case, settings: &Settings, 
     let together = Together::of(case);
     let focus = together.focus();
     for map in focus.paraboloids(settings).maps() {
-        for point in points_of(&focus.visible(), seed) {
+        for point in points_of(&focus.receiver_volume(), seed) {
             let exact = match map.project(point) {
                 Some(place) if map.clip_plane().at(point) >= 0.0 => place,
                 _ => continue,
@@ -58,21 +61,21 @@ pub(crate) fn carries_no_farther_than_it_says(case: &Case, settings: &Settings, 
 pub(crate) fn holds_what_it_must(case: &Case, settings: &Settings, seed: u64, among: bool) -> usize {
     let mut together = Together::of(case);
     // Lamps are seldom among what is visible; every other case has one put there.
-    if let Some(&within) = points_of(&together.focus().visible(), !seed).last()
+    if let Some(&within) = points_of(&together.focus().receiver_volume(), !seed).last()
         && among
     {
         let near = together.light.near().max(1e-6 * within.length().max(1.0));
         together.light = Light::point(within, near, f64::INFINITY).expect("sound");
     }
     let focus = together.focus();
-    let visible = focus.visible();
+    let visible = focus.receiver_volume();
     let fitted = focus.paraboloids(settings);
     // R is cut from the scene, and its points are known to what can be known there.
     let (min, max) = case.scene.bounds();
     let scene = DVec3::from(min).abs().max(DVec3::from(max).abs());
     match fitted {
-        Paraboloids::Empty(Empty::NothingVisible) => assert!(visible.is_empty()),
-        Paraboloids::Empty(Empty::NothingCasts) => return 0,
+        Paraboloids::Empty(Empty::NoReceivers) => assert!(visible.is_empty()),
+        Paraboloids::Empty(Empty::NoCasters) => return 0,
         Paraboloids::Directional => assert_eq!(together.light.position(), None),
         Paraboloids::One(_) => {}
         Paraboloids::Two([front, back]) => {
@@ -113,7 +116,7 @@ pub(crate) fn noise_is_at_least_that_of_points(case: &Case, settings: &Settings,
     let focus = together.focus();
     for map in focus.paraboloids(settings).maps() {
         let bias = map.bias(DepthFormat::Unorm24, 0.5).expect("a reach");
-        for point in points_of(&focus.visible(), seed) {
+        for point in points_of(&focus.receiver_volume(), seed) {
             let far_enough = together.is_served(point) && point.distance(map.position()) >= map.far() / 64.0;
             if map.clip_plane().at(point) < 0.0 || !far_enough {
                 continue;
@@ -121,7 +124,7 @@ pub(crate) fn noise_is_at_least_that_of_points(case: &Case, settings: &Settings,
             let rounding = map.rounding(point);
             // The receiver's and the caster's.
             assert!(2.0 * rounding.depth <= bias.receiver, "{point}: {rounding:?}, {bias:?}");
-            assert!(rounding.texels <= f64::from(bias.slope) - 0.5, "{point}: {rounding:?}, {bias:?}");
+            assert!(rounding.texels <= f64::from(bias.slope_scale) - 0.5, "{point}: {rounding:?}, {bias:?}");
         }
     }
 }

@@ -3,8 +3,10 @@
 use glam::{DVec3, Vec3};
 use rand::{Rng, RngExt as _};
 use shadowfit::{
-    Aabb, Budget, ClipSpace, CubeFace, Kind, Light, LightPlan, Object, Objects, Pass, Plan, Plane, Projection,
-    Reason, View, Warp, plan,
+    Aabb, ClipSpace, Light, View, Warp,
+    focus::Plane,
+    omni::CubeFace,
+    plan::{Budget, Kind, LightPlan, Object, Objects, Pass, Plan, Projection, Reason, plan},
 };
 
 use super::town::{LitTown, in_box};
@@ -37,7 +39,7 @@ fn pass_for<'a>(light: &Light, of_light: &'a LightPlan, point: DVec3) -> Option<
 fn place(pass: &Pass, point: DVec3) -> DVec3 {
     match pass.projection() {
         Projection::Frustum(map) | Projection::Face(_, map) => {
-            map.shadow_from_world_in(ClipSpace::WGPU).project_point3(point)
+            map.clip_from_world_in(ClipSpace::WGPU).project_point3(point)
         }
         Projection::Paraboloid(paraboloid) => paraboloid.project(point).expect("not behind the pole"),
     }
@@ -157,7 +159,7 @@ pub(crate) fn sees_no_more_in_less(rng: &mut impl Rng, town: &LitTown) -> u64 {
     let part = plan(&view, &town.lights, &Objects::new(&town.objects).expect("a sound town"), &town.budget);
     let mut dark = 0;
     for ((light, of_all), of_part) in town.lights.iter().zip(all.lights()).zip(part.lights()) {
-        let sees = |plan: &LightPlan| !plan.reasons().contains(&Reason::NothingVisible);
+        let sees = |plan: &LightPlan| !plan.reasons().contains(&Reason::NoReceivers);
         if !sees(of_all) {
             dark += 1;
             assert!(!sees(of_part), "{light:?} from {from} to {to} has {:?}", of_part.reasons());

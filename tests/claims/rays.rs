@@ -2,7 +2,7 @@
 //! rest.
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
-use shadowfit::{ClipSpace, Form, Outcome, Settings};
+use shadowfit::{ClipSpace, FocusForm, Outcome, Settings};
 
 use crate::arbitrary::{Case, Numbers, SceneParams, Together, points_of, sides};
 
@@ -42,13 +42,13 @@ pub(crate) fn keep_their_place(case: &Case, settings: &Settings, seed: u64) {
     let together = Together::of(case);
     let focus = together.focus();
     let Outcome::Map(map) = focus.fit(settings) else { return };
-    let matrix = map.shadow_from_world_in(ClipSpace::WGPU);
+    let matrix = map.clip_from_world_in(ClipSpace::WGPU);
     let l = together.light.homogeneous();
     let (min, max) = case.scene.bounds();
     let size = (DVec3::from(max) - DVec3::from(min)).length();
     let reach = reach(case, &together);
     let mut numbers = Numbers(!seed);
-    for point in points_of(&focus.visible(), seed) {
+    for point in points_of(&focus.receiver_volume(), seed) {
         if !together.is_served(point) {
             continue;
         }
@@ -80,11 +80,11 @@ pub(crate) fn end_in_the_map(case: &Case, settings: &Settings, seed: u64) {
     let together = Together::of(case);
     let focus = together.focus();
     let Outcome::Map(map) = focus.fit(settings) else { return };
-    let matrix = map.shadow_from_world_in(ClipSpace::WGPU);
+    let matrix = map.clip_from_world_in(ClipSpace::WGPU);
     let reach = reach(case, &together);
     let border = f64::from(settings.border()) / sides(settings);
-    let visible = points_of(&focus.visible(), seed);
-    let casters = together.casters(&focus.body(Form::Tight), &visible, seed);
+    let visible = points_of(&focus.receiver_volume(), seed);
+    let casters = together.casters(&focus.caster_volume(FocusForm::ReceiverHull), &visible, seed);
     // Among lists, receivers may be nearer to the light than the first caster.
     let separate = matches!(case.scene, SceneParams::Lists { .. });
     for (name, points, inner) in [("R", visible, 1.0 - 2.0 * border), ("H", casters, DVec2::ONE)] {

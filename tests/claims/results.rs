@@ -1,13 +1,18 @@
 //! Everything that the crate says of a fit is a number.
 
 use shadowfit::{
-    DepthFormat, DepthResolution, Focus, Form, Light, Offset, Outcome, Scene, Settings, View, Warp, classify,
+    DepthFormat, Focus, FocusForm, Light, Outcome, Scene, Settings, View, Warp, depth::ReceiverOffset,
+    map::DepthResolution, warp::classify,
 };
 
 /// Everything there is to know about a fit; none of it may be NaN.
 pub(crate) fn exercise(view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) {
     let focus = Focus::new(view, light, scene);
-    for body in [focus.visible(), focus.body(Form::Paper), focus.body(Form::Tight)] {
+    for body in [
+        focus.receiver_volume(),
+        focus.caster_volume(FocusForm::ViewHull),
+        focus.caster_volume(FocusForm::ReceiverHull),
+    ] {
         assert!(body.vertices().iter().all(|vertex| vertex.is_finite()), "vertices {:?}", body.vertices());
         assert!(body.volume().is_finite(), "volume {}", body.volume());
         assert_eq!(body.is_empty(), body.bounds().is_none());
@@ -19,18 +24,18 @@ pub(crate) fn exercise(view: &View, light: &Light, scene: &Scene<'_>, settings: 
     let class = classify(view, light);
     assert!(class.position.is_finite() && class.sine_to_camera_plane.is_finite() && !class.eye_distance.is_nan());
     let Outcome::Map(map) = focus.fit(settings) else { return };
-    assert!(map.matrix().is_finite(), "{}", map.matrix());
-    assert!(map.texture_matrix().is_finite(), "{}", map.texture_matrix());
-    assert!(map.shadow_from_world().is_finite(), "{}", map.shadow_from_world());
+    assert!(map.caster_matrix().is_finite(), "{}", map.caster_matrix());
+    assert!(map.receiver_matrix().is_finite(), "{}", map.receiver_matrix());
+    assert!(map.clip_from_world().is_finite(), "{}", map.clip_from_world());
     // What was refused is the uniform map, and nothing else says that it was.
     let refusable = matches!(settings.warp(), Warp::LightSpace | Warp::Trapezoidal | Warp::Stable);
-    assert!(map.refusal().is_none() || refusable && map.weakening() == 1.0, "{:?}", map.refusal());
-    for &point in focus.visible().vertices() {
-        let position = map.shadow_from_world() * point.extend(1.0);
+    assert!(map.fallback().is_none() || refusable && map.weakening() == 1.0, "{:?}", map.fallback());
+    for &point in focus.receiver_volume().vertices() {
+        let position = map.clip_from_world() * point.extend(1.0);
         assert!(position.is_finite(), "{point} is at {position}");
     }
-    for offset in [Offset::world(1.0), Offset::relative(0.1), Offset::depth(1e-3)] {
-        let matrix = map.texture_matrix_with(&offset.expect("a legal offset"));
+    for offset in [ReceiverOffset::world(1.0), ReceiverOffset::relative(0.1), ReceiverOffset::depth(1e-3)] {
+        let matrix = map.receiver_matrix_with(&offset.expect("a legal offset"));
         assert!(matrix.is_finite(), "{matrix}");
     }
     let bias = map.bias(DepthFormat::Float32, 1.0).expect("a legal reach");
@@ -45,7 +50,7 @@ pub(crate) fn exercise(view: &View, light: &Light, scene: &Scene<'_>, settings: 
         ("padding x", window.padding.0),
         ("padding y", window.padding.1),
         ("window rounding", window.rounding),
-        ("slope", bias.slope.into()),
+        ("slope", bias.slope_scale.into()),
         ("receiver", bias.receiver),
         ("relative", bias.relative),
         ("most of both", bias.most),

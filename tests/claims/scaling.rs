@@ -1,7 +1,7 @@
 //! Numbers of another size, the same bits.
 
 use glam::DVec3;
-use shadowfit::{Focus, Form, Map, Outcome, Settings};
+use shadowfit::{Focus, FocusForm, Outcome, Settings, ShadowMap};
 
 use crate::arbitrary::{Case, Similarity, Together, numbers};
 
@@ -18,7 +18,13 @@ pub(crate) fn changes_no_bit(case: &Case, settings: &Settings, exponent: i32) {
     }
     let (here, there) = (Together::of(case), Together::of(&scaled));
     let (here, there) = (here.focus(), there.focus());
-    let bodies = |focus: &Focus<'_>| [focus.visible(), focus.body(Form::Paper), focus.body(Form::Tight)];
+    let bodies = |focus: &Focus<'_>| {
+        [
+            focus.receiver_volume(),
+            focus.caster_volume(FocusForm::ViewHull),
+            focus.caster_volume(FocusForm::ReceiverHull),
+        ]
+    };
     for (body, scaled) in bodies(&here).iter().zip(&bodies(&there)) {
         let expected: Vec<_> = body.vertices().iter().map(|vertex| vertex * scale).collect();
         assert_eq!(scaled.vertices(), expected);
@@ -28,9 +34,9 @@ pub(crate) fn changes_no_bit(case: &Case, settings: &Settings, exponent: i32) {
         assert_eq!(there.fit(settings).map(), None);
         return;
     };
-    let clip = |map: &Map, point: DVec3| map.shadow_from_world().project_point3(point);
+    let clip = |map: &ShadowMap, point: DVec3| map.clip_from_world().project_point3(point);
     // A corner of R where the light is has no place.
-    for &point in here.visible().vertices().iter().filter(|point| map.w_at(**point) > 0.0) {
+    for &point in here.receiver_volume().vertices().iter().filter(|point| map.w_at(**point) > 0.0) {
         assert_eq!(clip(&scaled, point * scale), clip(&map, point));
     }
 }

@@ -1,7 +1,10 @@
 //! One map for several views: all that any of them sees is in it, and what casts on that.
 
 use glam::{DQuat, DVec3};
-use shadowfit::{Body, ClipSpace, Empty, Form, Outcome, Settings, SharedFocus, View};
+use shadowfit::{
+    ClipSpace, Empty, FocusForm, Outcome, Settings, View,
+    focus::{ConvexBody, SharedFocus},
+};
 
 use crate::arbitrary::{Case, SceneParams, points_of};
 
@@ -35,30 +38,31 @@ pub(crate) fn lose_nothing(case: &Case, settings: &Settings, seed: u64) -> Tried
     let scene = store.scene().expect("the scene is accepted");
     let views = views(view, seed);
     let shared = SharedFocus::new(&views, &light, &scene).expect("no more views than there may be");
-    assert_eq!(shared.bodies(Form::Tight).count(), views.len());
+    assert_eq!(shared.bodies(FocusForm::ReceiverHull).count(), views.len());
     let sharing = shared.sharing(settings);
     assert!(sharing.shared >= 0.0 && sharing.separate >= 0.0, "{sharing:?}");
     let outcome = shared.fit(settings);
     let Outcome::Map(map) = &outcome else {
-        let nothing = outcome == Outcome::Empty(Empty::NothingVisible);
-        assert!(!nothing || shared.iter().all(|part| part.visible().is_empty()));
+        let nothing = outcome == Outcome::Empty(Empty::NoReceivers);
+        assert!(!nothing || shared.iter().all(|part| part.receiver_volume().is_empty()));
         return Tried::default();
     };
-    assert!(map.matrix().is_finite(), "{}", map.matrix());
+    assert!(map.caster_matrix().is_finite(), "{}", map.caster_matrix());
     let mut tried = Tried { maps: 1, ..Tried::default() };
-    let matrix = map.shadow_from_world_in(ClipSpace::WGPU);
+    let matrix = map.clip_from_world_in(ClipSpace::WGPU);
     let l = light.homogeneous();
     let (min, max) = case.scene.bounds();
     let is_box = matches!(case.scene, SceneParams::Bounds { .. });
     let reach = DVec3::from(max).distance(min.into());
     // Half of the way to a light at a position, or some way to any other, where that is in a scene that is a box.
-    let casting = |point: DVec3, body: &Body| {
+    let casting = |point: DVec3, body: &ConvexBody| {
         let caster = if l.w > 0.0 { point.lerp(l.truncate(), 0.5) } else { point + l.truncate() * (0.125 * reach) };
         let is_inside = caster.cmpge(min.into()).all() && caster.cmple(max.into()).all();
         (is_box && is_inside && body.contains(caster)).then_some((caster, true))
     };
     for part in shared.iter() {
-        let (points, body) = (points_of(&part.visible(), seed).into_iter(), part.body(Form::Tight));
+        let (points, body) =
+            (points_of(&part.receiver_volume(), seed).into_iter(), part.caster_volume(FocusForm::ReceiverHull));
         for (point, casts) in points.flat_map(|point| [Some((point, false)), casting(point, &body)]).flatten() {
             if light.position().is_some_and(|position| position.distance(point) < light.near()) {
                 continue;

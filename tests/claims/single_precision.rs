@@ -1,20 +1,20 @@
 //! What f32 makes of a map: all that must be in it is, and its depths are as quiet as it says.
 
 use glam::{DVec2, DVec3, DVec4, Vec4};
-use shadowfit::{ClipSpace, DepthRange, Form, Map, Origin, Outcome, Settings, View};
+use shadowfit::{ClipSpace, FocusForm, Origin, Outcome, Settings, ShadowMap, View, input::DepthRange};
 
 use crate::arbitrary::{Case, SceneParams, Together, points_of, sides};
 
 /// What the f32 matrix makes of a position that is an f32 too, as a vertex shader does it.
-pub(crate) fn in_f32(map: &Map, point: DVec3) -> Vec4 {
+pub(crate) fn in_f32(map: &ShadowMap, point: DVec3) -> Vec4 {
     let origin = map.origin();
-    map.matrix() * (point - origin).as_vec3().extend(1.0)
+    map.caster_matrix() * (point - origin).as_vec3().extend(1.0)
 }
 
 /// What eight roundings of f32 can move a point by across the clip volume, and w by relative to itself.
-pub(crate) fn rounding(map: &Map, point: DVec3) -> (f64, f64) {
+pub(crate) fn rounding(map: &ShadowMap, point: DVec3) -> (f64, f64) {
     const UNITS: f64 = 8.0 / 16_777_216.0;
-    let rows = map.shadow_from_world().transpose();
+    let rows = map.clip_from_world().transpose();
     let origin = map.origin();
     let w = rows.w_axis.dot(point.extend(1.0));
     let [x, y, w] = [rows.x_axis, rows.y_axis, rows.w_axis].map(|row| {
@@ -49,8 +49,8 @@ pub(crate) fn holds_what_it_must(case: &Case, settings: &Settings, seed: u64) {
     // The border is measured in f64 after the division, which is a rounding more than the map answers for.
     let border = f64::from(settings.border()) / sides(settings);
     let inner = (1.0 - 2.0 * border) * (1.0 + f64::EPSILON);
-    let visible = points_of(&focus.visible(), seed);
-    let body = focus.body(Form::Tight);
+    let visible = points_of(&focus.receiver_volume(), seed);
+    let body = focus.caster_volume(FocusForm::ReceiverHull);
     let casters = together.casters(&body, &visible, seed);
     let l = together.light.homogeneous();
     for (name, points, inner) in [("R", visible, inner), ("H", casters, DVec2::ONE)] {
@@ -96,13 +96,13 @@ pub(crate) fn is_as_quiet_as_it_says(case: &Case, settings: &Settings, seed: u64
     let together = Together::of(case);
     let focus = together.focus();
     let Outcome::Map(map) = focus.fit(settings) else { return };
-    for point in points_of(&focus.visible(), seed) {
+    for point in points_of(&focus.receiver_volume(), seed) {
         let (_, of_w) = rounding(&map, point);
         if !together.is_served(point) || of_w > 0.5 {
             continue;
         }
         let in_f32 = depth_of(settings.clip(), in_f32(&map, point).as_dvec4());
-        let exact = depth_of(settings.clip(), map.shadow_from_world() * point.extend(1.0));
+        let exact = depth_of(settings.clip(), map.clip_from_world() * point.extend(1.0));
         let noise = map.depth_rounding(point);
         // Among lists a receiver may be before the near end: w's rounding then counts as often as depth is large.
         let (off, noise_here) = ((in_f32 - exact).abs(), noise * exact.abs().max(1.0));

@@ -4,7 +4,11 @@
 use glam::DVec3;
 use proptest::prelude::*;
 use shadowfit::{
-    Aabb, Body, Cuts, Empty, Focus, Form, InputError, Layout, Lens, Outcome, Settings, Slices, Split, fit,
+    Aabb, Empty, Focus, FocusForm, InputError, Outcome, Settings,
+    cascades::{CascadeLayout, CascadeSplits, Cascades, SplitScheme},
+    fit,
+    focus::ConvexBody,
+    input::Lens,
 };
 
 use super::single_precision::{in_f32, is_in_window, rounding};
@@ -14,16 +18,20 @@ use crate::arbitrary::{Case, Numbers, SceneStore, Together, points_of, sides};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cutting {
     count: usize,
-    split: Split,
+    split: SplitScheme,
     /// Between the view's planes, not what is visible.
     planes: bool,
     overlap: f64,
 }
 
 pub(crate) fn cutting() -> impl Strategy<Value = Cutting> {
-    let split = prop_oneof![Just(Split::Uniform), Just(Split::Logarithmic), (0.0..=1.0).prop_map(Split::Blended)];
+    let split = prop_oneof![
+        Just(SplitScheme::Uniform),
+        Just(SplitScheme::Logarithmic),
+        (0.0..=1.0).prop_map(SplitScheme::Practical)
+    ];
     let overlap = prop_oneof![Just(0.0), 0.0..=1.0, Just(1.0)];
-    (1..=Slices::MAX, split, any::<bool>(), overlap).prop_map(|(count, split, planes, overlap)| Cutting {
+    (1..=Cascades::MAX, split, any::<bool>(), overlap).prop_map(|(count, split, planes, overlap)| Cutting {
         count,
         split,
         planes,
@@ -32,25 +40,25 @@ pub(crate) fn cutting() -> impl Strategy<Value = Cutting> {
 }
 
 impl Cutting {
-    fn cut<'a>(&self, together: &'a Together) -> Result<Slices<'a>, InputError> {
+    fn cut<'a>(&self, together: &'a Together) -> Result<Cascades<'a>, InputError> {
         let Self { count, split, overlap, .. } = *self;
         let cuts = if self.planes && together.view.far().is_finite() {
-            Cuts::View { count, split }
+            CascadeSplits::View { count, split }
         } else {
-            Cuts::Visible { count, split }
+            CascadeSplits::Visible { count, split }
         };
         let scene = together.store.scene().expect("the scene is accepted");
-        Slices::new(&together.view, &together.light, &scene, cuts, overlap)
+        Cascades::new(&together.view, &together.light, &scene, cuts, overlap)
     }
 
-    fn slices<'a>(&self, together: &'a Together) -> Slices<'a> {
+    fn slices<'a>(&self, together: &'a Together) -> Cascades<'a> {
         self.cut(together).expect("legal cuts")
     }
 }
 
 /// Points that are visible: of R, or, among lists, of the receivers themselves, which R is only a bound of.
 fn visible_points(together: &Together, focus: &Focus<'_>, seed: u64) -> Vec<DVec3> {
-    let SceneStore::Lists(_, receivers) = &together.store else { return points_of(&focus.visible(), seed) };
+    let SceneStore::Lists(_, receivers) = &together.store else { return points_of(&focus.receiver_volume(), seed) };
     let mut numbers = Numbers(seed);
     let mut points = Vec::new();
     for one in receivers {
@@ -71,7 +79,7 @@ pub(crate) fn one_is_a_plain_fit(case: &Case, cutting: &Cutting, settings: &Sett
     let scene = together.store.scene().expect("the scene is accepted");
     let plain = fit(&together.view, &together.light, &scene, settings);
     let one = Cutting { count: 1, ..*cutting };
-    let at_none = Slices::new(&together.view, &together.light, &scene, Cuts::At(&[]), one.overlap);
+    let at_none = Cascades::new(&together.view, &together.light, &scene, CascadeSplits::At(&[]), one.overlap);
     for slices in [one.slices(&together), at_none.expect("no cuts")] {
         assert_eq!(slices.len(), 1);
         assert_eq!(slices[0].focus.view(), &together.view);
@@ -92,7 +100,7 @@ pub(crate) fn every_depth_is_in_one(case: &Case, cutting: &Cutting, settings: &S
         assert_eq!(pair[0].far, f64::from(pair[0].far as f32));
         assert!(pair[0].near <= pair[0].blend && pair[0].blend <= pair[0].far);
     }
-    let uniform = slices.fit(settings).uniform(Layout::Array, |_| None);
+    let uniform = slices.fit(settings).uniform(CascadeLayout::Array, |_| None);
     let mut numbers = Numbers(seed);
     let last = view.far().min(2.0 * view.near().abs() + 1e4);
     let mut depths: Vec<f64> = (0..32).map(|_| view.near() + (last - view.near()) * numbers.part()).collect();
@@ -106,7 +114,7 @@ pub(crate) fn every_depth_is_in_one(case: &Case, cutting: &Cutting, settings: &S
         assert!(blend == 0.0 || index + 1 < slices.len());
         // As `shadowfit_slice_at` counts.
         let single = depth as f32;
-        let of_shader = uniform.far.iter().filter(|far| single >= **far).count().min(Slices::MAX - 1);
+        let of_shader = uniform.far.iter().filter(|far| single >= **far).count().min(Cascades::MAX - 1);
         // Which is for depths that are finite.
         assert!(single >= f32::MAX || of_shader == slices.index_at(f64::from(single)), "{depth}: {of_shader}");
     }
@@ -133,7 +141,7 @@ pub(crate) fn maps_hold_what_is_visible(case: &Case, cutting: &Cutting, settings
             let next = (slices.blend_at(depth) > 0.0).then_some(index + 1);
             for index in [Some(index), next].into_iter().flatten() {
                 let outcome = &maps.outcomes()[index];
-                assert_ne!(*outcome, Outcome::Empty(Empty::NothingVisible), "{point} is in slice {index}");
+                assert_ne!(*outcome, Outcome::Empty(Empty::NoReceivers), "{point} is in slice {index}");
                 let Some(map) = outcome.map() else { continue };
                 let (across, of_w) = rounding(map, point);
                 // Beside a lamp f32 may not tell a place to a 64th of the window.
@@ -153,9 +161,9 @@ pub(crate) fn maps_hold_what_is_visible(case: &Case, cutting: &Cutting, settings
 pub(crate) fn bodies_hold_what_casts(case: &Case, cutting: &Cutting, seed: u64) {
     let together = Together::of(case);
     let slices = cutting.slices(&together);
-    let bodies: Vec<_> = slices.iter().map(|slice| slice.focus.body(Form::Tight)).collect();
+    let bodies: Vec<_> = slices.iter().map(|slice| slice.focus.caster_volume(FocusForm::ReceiverHull)).collect();
     let cullers: Vec<_> = bodies.iter().map(|body| body.culler()).collect();
-    let whole = together.focus().body(Form::Tight);
+    let whole = together.focus().caster_volume(FocusForm::ReceiverHull);
     for point in visible_points(&together, &together.focus(), seed) {
         let index = slices.index_at(together.view.depth(point));
         for caster in together.casters(&whole, &[point], seed) {
@@ -164,12 +172,15 @@ pub(crate) fn bodies_hold_what_casts(case: &Case, cutting: &Cutting, seed: u64) 
                 let holds =
                     |one: &&Aabb| one.min.as_dvec3().cmple(caster).all() && caster.cmple(one.max.as_dvec3()).all();
                 let Some(one) = casters.iter().find(holds) else { continue };
-                assert!(bodies[index].meets_box(one.min, one.max), "{one:?} casts on {point} in slice {index}");
+                assert!(
+                    bodies[index].intersects_aabb(one.min, one.max),
+                    "{one:?} casts on {point} in slice {index}"
+                );
                 let mut meets = [false];
                 cullers[index].boxes(&[*one], &mut meets);
                 assert_eq!(meets, [true], "{one:?} casts on {point} in slice {index}");
             } else {
-                let (body, visible) = (&bodies[index], slices[index].focus.visible());
+                let (body, visible) = (&bodies[index], slices[index].focus.receiver_volume());
                 let slack = slack(&visible, caster.abs().max(point.abs()));
                 let least = body.planes().map(|plane| plane.at(caster)).fold(f64::INFINITY, f64::min);
                 assert!(
@@ -186,7 +197,7 @@ pub(crate) fn bodies_hold_what_casts(case: &Case, cutting: &Cutting, seed: u64) 
 /// The planes of H are those of R, and weighted means of two of them that are zero at the light, so that no such mean is less
 /// at the caster than at the point. The point is outside of each plane of R by no more than what planes of it are
 /// loosened by, which is what corners are rounded by: 96 ε of the terms. Again as much for the caster's own rounding.
-fn slack(visible: &Body, largest: DVec3) -> f64 {
+fn slack(visible: &ConvexBody, largest: DVec3) -> f64 {
     let terms = visible.planes().map(|plane| plane.normal.abs().dot(largest) + plane.offset.abs());
     2.0 * 96.0 * f64::EPSILON * terms.fold(0.0, f64::max)
 }
@@ -197,7 +208,7 @@ pub(crate) fn orthographic_cuts_are_uniform(case: &Case, cutting: &Cutting) {
     if together.view.lens() != Lens::Orthographic {
         return;
     }
-    let uniform = Cutting { split: Split::Uniform, ..*cutting }.slices(&together);
+    let uniform = Cutting { split: SplitScheme::Uniform, ..*cutting }.slices(&together);
     let ours = cutting.slices(&together);
     assert!(ours.iter().map(|slice| slice.far).eq(uniform.iter().map(|slice| slice.far)));
 }

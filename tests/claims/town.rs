@@ -5,7 +5,11 @@ use std::convert::Infallible;
 use glam::{DVec3, Vec3};
 use rand::rngs::StdRng;
 use rand::{Rng, RngExt as _, SeedableRng as _, TryRng};
-use shadowfit::{Aabb, Budget, Effort, Filter, Light, Object, Settings, Solidity, Surface, View, Warp};
+use shadowfit::{
+    Aabb, Effort, Filter, Light, Settings, View, Warp,
+    mesh::Solidity,
+    plan::{Budget, Object, Surface},
+};
 
 /// All that a plan is made from.
 #[derive(Debug)]
@@ -90,7 +94,7 @@ pub(crate) fn town(rng: &mut impl Rng, most: i32) -> Vec<Object> {
             0 => Surface::Points,
             1..3 => Surface::FlatSheets,
             3..5 => Surface::Mesh(Solidity::Open),
-            _ => Surface::Mesh(Solidity::Solid),
+            _ => Surface::Mesh(Solidity::Watertight),
         };
         objects.push(Object {
             casts: rng.random_bool(0.9),
@@ -147,8 +151,8 @@ pub(crate) fn budget(rng: &mut impl Rng) -> Budget {
     };
     let filter = match rng.random_range(0..3) {
         0 => Filter::Nearest,
-        1 => Filter::Hardware,
-        _ => Filter::PercentageCloser(rng.random_range(2..6)),
+        1 => Filter::Hardware2x2,
+        _ => Filter::Pcf(rng.random_range(2..6)),
     };
     Budget::new(Settings::new(size, 720).expect("sound sizes").with_warp(warp)).with_filter(filter)
 }

@@ -2,7 +2,8 @@
 
 use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec3};
 use shadowfit::{
-    ComparisonTolerance, DepthFormat, LEAST_INCIDENCE, Map, Origin, Outcome, Rule, SUBTEXEL, Settings, TangentPlane,
+    DepthFormat, Origin, Outcome, Settings, ShadowMap,
+    depth::{ComparisonTolerance, Decision, MIN_SIN_INCIDENCE, RASTER_GRID, TangentPlane},
 };
 
 use super::single_precision::{depth_of, in_f32, rounding};
@@ -51,7 +52,7 @@ impl Error {
         let facing = normal.dot(gradients[0].cross(gradients[1])).abs();
         let along = gradients[0].cross(gradients[1]).length();
         let of_facing = triple(0, 1);
-        if facing < 1.01 * LEAST_INCIDENCE * along + 2.0 * of_facing || magnitudes[3] * 16.0 * unit > w {
+        if facing < 1.01 * MIN_SIN_INCIDENCE * along + 2.0 * of_facing || magnitudes[3] * 16.0 * unit > w {
             return None;
         }
         let slopes = DVec2::new(
@@ -84,7 +85,7 @@ pub(crate) fn direction(numbers: &mut Numbers) -> DVec3 {
 }
 
 /// The planes through points of what is visible, turned at random, with a second point of each not many texels off.
-fn planes(map: &Map, visible: &[DVec3], seed: u64) -> Vec<(DVec3, DVec3, DVec3)> {
+fn planes(map: &ShadowMap, visible: &[DVec3], seed: u64) -> Vec<(DVec3, DVec3, DVec3)> {
     let mut numbers = Numbers(seed);
     let texture = map.texture_from_world();
     let texels = |point| projected(texture, point).truncate() * sides(map.settings());
@@ -106,7 +107,7 @@ pub(crate) fn depths_are_exact(case: &Case, settings: &Settings, seed: u64) {
     let focus = together.focus();
     let Outcome::Map(map) = focus.fit(settings) else { return };
     let texture = map.texture_from_world();
-    for (point, normal, other) in planes(&map, &points_of(&focus.visible(), seed), seed) {
+    for (point, normal, other) in planes(&map, &points_of(&focus.receiver_volume(), seed), seed) {
         let Some(plane) = TangentPlane::new(&map, point, normal) else { continue };
         let (Some(here), Some(there)) =
             (Error::of(texture, point, normal, F64), Error::of(texture, other, normal, F64))
@@ -156,7 +157,7 @@ pub(crate) fn shaders_find_them(case: &Case, settings: &Settings, seed: u64) {
     let Outcome::Map(map) = focus.fit(settings) else { return };
     let origin = map.origin();
     let texture = map.texture_from_world() * DMat4::from_translation(origin);
-    for (point, normal, _) in planes(&map, &points_of(&focus.visible(), seed), seed) {
+    for (point, normal, _) in planes(&map, &points_of(&focus.receiver_volume(), seed), seed) {
         if !together.is_served(point) {
             continue;
         }
@@ -167,7 +168,7 @@ pub(crate) fn shaders_find_them(case: &Case, settings: &Settings, seed: u64) {
         // Far from the world's origin f64 loses digits of what is expected, and of the matrix as it is moved to the eye.
         let world = Error::of(map.texture_from_world(), point, normal, F64);
         let Some(in_f64) = world else { continue };
-        let (projected, slopes) = in_a_shader(map.texture_matrix(), position, normal.as_vec3());
+        let (projected, slopes) = in_a_shader(map.receiver_matrix(), position, normal.as_vec3());
         let sides = sides(map.settings());
         for off in [DVec2::new(-0.5, 0.5), DVec2::new(1.0, 0.3), DVec2::new(1.5, -1.5)].map(|off| off / sides) {
             let place = (plane.place() + off).as_vec2();
@@ -187,7 +188,7 @@ pub(crate) fn rules_hold_where_planes_are_seen(case: &Case, settings: &Settings,
     let Outcome::Map(map) = focus.fit(settings) else { return };
     // All texels that a filter reads are in the map.
     let margin = 4.0 / sides(settings);
-    for (point, normal, _) in planes(&map, &points_of(&focus.visible(), seed), seed) {
+    for (point, normal, _) in planes(&map, &points_of(&focus.receiver_volume(), seed), seed) {
         let Some(plane) = TangentPlane::new(&map, point, normal) else { continue };
         if plane.place().cmpgt(margin).all() && plane.place().cmplt(1.0 - margin).all() {
             rules_only_cut_short(&map, plane, seed);
@@ -197,7 +198,7 @@ pub(crate) fn rules_hold_where_planes_are_seen(case: &Case, settings: &Settings,
 
 /// Asserts that where the rules differ from a test that asks the plane at every texel, on depths about the plane at
 /// random, the point passes against all texels or against none.
-pub(crate) fn rules_only_cut_short(map: &Map, plane: TangentPlane, seed: u64) {
+pub(crate) fn rules_only_cut_short(map: &ShadowMap, plane: TangentPlane, seed: u64) {
     let sides = sides(map.settings());
     let away = if map.settings().clip().depth.is_reversed() { -1.0 } else { 1.0 };
     let spread = 4.0 * (plane.slopes().abs() / sides).element_sum();
@@ -215,9 +216,9 @@ pub(crate) fn rules_only_cut_short(map: &Map, plane: TangentPlane, seed: u64) {
         let of_plane = texels.iter().filter(|&&(x, y)| passes(at(x, y), x, y)).count();
         let sampled = plane.mean(taps, &parts, stored);
         let expected = match sampled.rule {
-            Rule::AllPass => (of_point == texels.len()).then_some(1.0),
-            Rule::NonePass => (of_point == 0).then_some(0.0),
-            Rule::VirtualSamples => {
+            Decision::AllPass => (of_point == texels.len()).then_some(1.0),
+            Decision::NonePass => (of_point == 0).then_some(0.0),
+            Decision::VirtualSamples => {
                 let disagree = taps == 1 || (of_point > 0 && of_point < texels.len());
                 disagree.then_some(of_plane as f64 / texels.len() as f64)
             }
@@ -236,7 +237,7 @@ pub(crate) fn rules_only_cut_short(map: &Map, plane: TangentPlane, seed: u64) {
     let at = |x: u32, y: u32| plane.depth_at((DVec2::new(f64::from(x), f64::from(y)) + 0.5) / sides);
     let share: f64 =
         around.iter().zip(weights).filter(|((x, y), _)| passes(at(*x, *y), *x, *y)).map(|(_, w)| w).sum();
-    if blended.rule == Rule::VirtualSamples {
+    if blended.rule == Decision::VirtualSamples {
         assert!((blended.share - share).abs() < 1e-9, "{blended:?}, {share}");
     }
 }
@@ -250,13 +251,13 @@ pub(crate) fn allows_for_rounding(case: &Case, settings: &Settings, seed: u64) {
     let mut numbers = Numbers(seed);
     let sides = sides(settings);
     let off = |point| {
-        let exact = depth_of(settings.clip(), map.shadow_from_world() * DVec3::extend(point, 1.0));
+        let exact = depth_of(settings.clip(), map.clip_from_world() * DVec3::extend(point, 1.0));
         let (_, of_w) = rounding(&map, point);
         let is_counted = together.is_served(point) && of_w <= 0.5 && exact.abs() <= 1.0;
         let found = depth_of(settings.clip(), in_f32(&map, point).as_dvec4());
         is_counted.then_some(found - exact)
     };
-    for corners in points_of(&focus.visible(), seed).windows(3) {
+    for corners in points_of(&focus.receiver_volume(), seed).windows(3) {
         let [a, b, c] = [corners[0], corners[1], corners[2]];
         let (s, t) = (numbers.part(), numbers.part());
         let point = a + s * ((b - a) + t * (c - b));
@@ -275,7 +276,7 @@ pub(crate) fn allows_for_rounding(case: &Case, settings: &Settings, seed: u64) {
             }
             let tolerance = map.comparison_tolerance(DepthFormat::Float32, reach).expect("a reach");
             // Without what is for the format and for the rasteriser.
-            let grid = SUBTEXEL * (plane.slopes().abs() / sides).element_sum();
+            let grid = RASTER_GRID * (plane.slopes().abs() / sides).element_sum();
             let allowed = plane.tolerance(&tolerance) - 0.5 * DepthFormat::Float32.step(1.0) - grid;
             let stored = part_a * of_a + part_b * of_b + part_c * of_c;
             // Exact depths are f64's.

@@ -2,7 +2,11 @@
 //! bodies is lost and that little is gained; here each case has its name.
 
 use shadowfit::glam::DVec3;
-use shadowfit::{Body, ConvexScene, Empty, Focus, Form, Light, Origin, Outcome, Plane, Scene, View};
+use shadowfit::{
+    Empty, Focus, FocusForm, Light, Origin, Outcome, Scene, View,
+    focus::{ConvexBody, Plane},
+    input::ConvexScene,
+};
 
 use crate::place::{assert_holds, in_f32, is_inside, lamp, map, settings, sun, turned_view, view, wide};
 use crate::sweep::{about, powers, steps};
@@ -27,18 +31,24 @@ fn of_box(min: DVec3, max: DVec3) -> Planes {
 }
 
 /// R and H in the paper's form hold the exact ones. Returns R.
-fn assert_nothing_is_lost(view: &View, light: &Light, scene: &Scene<'_>, of_scene: &Planes, what: &str) -> Body {
+fn assert_nothing_is_lost(
+    view: &View,
+    light: &Light,
+    scene: &Scene<'_>,
+    of_scene: &Planes,
+    what: &str,
+) -> ConvexBody {
     let focus = Focus::new(view, light, scene);
     let lit = [of_scene.clone(), exact(&light.planes())].concat();
     let of_view = exact(&view.planes());
-    let visible = focus.visible();
+    let visible = focus.receiver_volume();
     assert_holds(&visible, &vertices(&[lit.clone(), of_view.clone()].concat()), &what);
     let hull = hull(&of_view, &homogeneous(light.homogeneous()));
-    assert_holds(&focus.body(Form::Paper), &vertices(&[lit, hull].concat()), &what);
+    assert_holds(&focus.caster_volume(FocusForm::ViewHull), &vertices(&[lit, hull].concat()), &what);
     visible
 }
 
-fn assert_box_is_kept(view: &View, light: &Light, min: DVec3, max: DVec3, what: &str) -> Body {
+fn assert_box_is_kept(view: &View, light: &Light, min: DVec3, max: DVec3, what: &str) -> ConvexBody {
     let scene = Scene::from_box(min, max).expect("sound");
     assert_nothing_is_lost(view, light, &scene, &of_box(min, max), what)
 }
@@ -51,7 +61,7 @@ fn row_17_nothing_to_be_seen() {
     let fit = |light: &Light, z: f64| {
         let scene = Scene::from_box((-5.0, -5.0, z), (5.0, 5.0, 20.0)).expect("sound");
         let focus = Focus::new(&view, light, &scene);
-        (focus.visible(), focus.body(Form::Tight), focus.fit(&settings()))
+        (focus.receiver_volume(), focus.caster_volume(FocusForm::ReceiverHull), focus.fit(&settings()))
     };
     // The scene ends before the near plane, at it, and beyond.
     for by in about(0.0).map(|by| -1.0 + by).chain(steps(-1.0)) {
@@ -59,13 +69,13 @@ fn row_17_nothing_to_be_seen() {
         match outcome {
             Outcome::Empty(why) => {
                 assert!(by > -1.0, "{by:e} in view");
-                assert_eq!(why, Empty::NothingVisible);
+                assert_eq!(why, Empty::NoReceivers);
                 assert!(visible.is_empty() && body.is_empty() && visible.bounds().is_none());
             }
             Outcome::Map(map) => {
                 // In doubt bodies grow: by 96 ε of terms of 20 (`Plane::loosened`).
                 assert!(by <= -1.0 + 96.0 * f64::EPSILON * 40.0, "{by:e} out of view");
-                assert!(map.matrix().is_finite());
+                assert!(map.caster_matrix().is_finite());
             }
             other @ Outcome::Surrounded(_) => panic!("{other:?}"),
         }
@@ -80,9 +90,9 @@ fn row_17_nothing_to_be_seen() {
             assert_eq!(visible.is_empty(), by > 0.0, "{by:e}");
         }
         if visible.is_empty() {
-            assert!(matches!(outcome, Outcome::Empty(Empty::NothingVisible)), "{by:e}: {outcome:?}");
+            assert!(matches!(outcome, Outcome::Empty(Empty::NoReceivers)), "{by:e}: {outcome:?}");
         } else if let Outcome::Map(map) = outcome {
-            assert!(map.matrix().is_finite(), "{by:e}");
+            assert!(map.caster_matrix().is_finite(), "{by:e}");
         }
     }
 }
@@ -283,7 +293,7 @@ fn corner(min: DVec3, max: DVec3, index: u32) -> DVec3 {
 /// (`properties::scaling_by_a_power_of_two_changes_no_bit`.)
 #[test]
 fn row_24_scenes_of_every_scale() {
-    let body = |scale: f64, form: Option<Form>| {
+    let body = |scale: f64, form: Option<FocusForm>| {
         let eye = DVec3::new(3.0, 8.0, 7.0) * scale;
         let view = View::perspective(eye, (0.48, -0.6, 0.64), DVec3::Y, 1.1, 1.6, 0.5 * scale, 200.0 * scale)
             .expect("sound");
@@ -292,10 +302,10 @@ fn row_24_scenes_of_every_scale() {
         let scene = Scene::from_box(DVec3::new(-64.0, 0.0, -64.0) * scale, DVec3::new(64.0, 20.0, 64.0) * scale)
             .expect("sound");
         let focus = Focus::new(&view, &light, &scene);
-        assert!(focus.fit(&settings()).map().expect("one map does").matrix().is_finite());
-        form.map_or_else(|| focus.visible(), |form| focus.body(form))
+        assert!(focus.fit(&settings()).map().expect("one map does").caster_matrix().is_finite());
+        form.map_or_else(|| focus.receiver_volume(), |form| focus.caster_volume(form))
     };
-    for form in [None, Some(Form::Paper), Some(Form::Tight)] {
+    for form in [None, Some(FocusForm::ViewHull), Some(FocusForm::ReceiverHull)] {
         let usual = body(1.0, form);
         for exponent in (-24..=24).step_by(4) {
             let scale = 2_f64.powi(exponent);
@@ -304,7 +314,7 @@ fn row_24_scenes_of_every_scale() {
         }
         for scale in [1e-6, 1e-3, 1e-2, 1e3, 1e6] {
             let scaled = body(scale, form);
-            let shape = |body: &Body| (body.vertices().len(), body.faces().count(), body.edges().count());
+            let shape = |body: &ConvexBody| (body.vertices().len(), body.faces().count(), body.edges().count());
             assert_eq!(shape(&scaled), shape(&usual), "{scale:e}");
             for (vertex, expected) in scaled.vertices().iter().zip(usual.vertices()) {
                 // Vertices where planes meet at a tenth move ten times as far as the planes, 96 ε of terms of 300.
@@ -337,5 +347,5 @@ fn row_25_everything_far_from_the_origin() {
     }
     // And in f32 positions: wide scenes are in their maps, about the eye.
     let map = map(&view(), &sun(DVec3::Y), &wide(), &settings().with_origin(Origin::Eye));
-    assert!(map.matrix().is_finite());
+    assert!(map.caster_matrix().is_finite());
 }

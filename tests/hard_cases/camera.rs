@@ -1,7 +1,11 @@
 //! Rows 26 to 28: cameras of every kind. `conventions` has one camera in every convention, and maps for every API.
 
 use shadowfit::glam::{DMat4, DVec3, DVec4};
-use shadowfit::{ClassKind, ClipSpace, Focus, Form, Light, Problem, Scene, View, classify};
+use shadowfit::{
+    ClipSpace, Focus, FocusForm, Light, Scene, View,
+    input::InputErrorKind,
+    warp::{ClassKind, classify},
+};
 
 use crate::place::{in_f32, is_inside, lamp, map, settings, sun};
 use crate::sweep::steps;
@@ -32,8 +36,8 @@ fn row_26_cameras_of_every_convention() {
         ]
         .map(|(view, projection, clip)| View::from_matrices(view, projection, clip).expect("sound"));
         for light in [sun(DVec3::new(0.3, 1.0, 0.4)), sun(views[0].forward()), lamp(DVec3::new(4.0, 25.0, 3.0))] {
-            let bodies = views.map(|view| Focus::new(&view, &light, &scene).body(Form::Paper));
-            let size = |body: &shadowfit::Body| body.bounds().expect("something is visible");
+            let bodies = views.map(|view| Focus::new(&view, &light, &scene).caster_volume(FocusForm::ViewHull));
+            let size = |body: &shadowfit::focus::ConvexBody| body.bounds().expect("something is visible");
             for body in &bodies {
                 let ((min, max), (expected_min, expected_max)) = (size(body), size(&bodies[0]));
                 // A matrix keeps 1 − n/f: 128 roundings, of the far plane at 64 in a scene of 60.
@@ -76,7 +80,7 @@ fn row_27_near_plane_at_the_eye() {
                     "{near:e}: {}",
                     map.warp_ratio()
                 );
-                for &p in Focus::new(&view, &light, &scene).visible().vertices() {
+                for &p in Focus::new(&view, &light, &scene).receiver_volume().vertices() {
                     assert!(is_inside(in_f32(&map, p)), "{near:e}, {far}, {light:?}: {p}");
                 }
             }
@@ -99,7 +103,7 @@ fn row_28_fields_of_view() {
     }) {
         let view = make(f64::to_radians(degrees)).expect("in range");
         let focus = Focus::new(&view, &light, &scene);
-        let visible = focus.visible();
+        let visible = focus.receiver_volume();
         assert!(!visible.is_empty(), "{degrees}");
         if let Some(map) = focus.fit(&settings()).map() {
             for &p in visible.vertices() {
@@ -112,12 +116,12 @@ fn row_28_fields_of_view() {
     }
     let refused = |fov_y: f64| make(fov_y).err().map(|error| (error.field, error.problem));
     for fov_y in steps(0.0).filter(|x| *x <= 0.0).chain(steps(PI).filter(|x| *x >= PI)) {
-        assert_eq!(refused(fov_y), Some(("fov_y", Problem::AngleOutOfRange)), "{fov_y:e}");
+        assert_eq!(refused(fov_y), Some(("fov_y", InputErrorKind::AngleOutOfRange)), "{fov_y:e}");
     }
     for fov_y in steps(0.0).filter(|x| *x > 0.0) {
-        assert_eq!(refused(fov_y), Some(("fov_y", Problem::TooSmall)), "{fov_y:e}");
+        assert_eq!(refused(fov_y), Some(("fov_y", InputErrorKind::TooSmall)), "{fov_y:e}");
     }
     for fov_y in steps(PI).filter(|x| *x < PI) {
-        assert_eq!(refused(fov_y), Some(("fov_y", Problem::TooLarge)), "{fov_y:e}");
+        assert_eq!(refused(fov_y), Some(("fov_y", InputErrorKind::TooLarge)), "{fov_y:e}");
     }
 }

@@ -1,7 +1,7 @@
 //! Point lights and hemispheres in corners of what is visible, and how far from being served those are that are not.
 
 use shadowfit::glam::DVec3;
-use shadowfit::{Empty, Focus, Light, Map, Outcome, Scene, Settings, Surrounded, View, Warp};
+use shadowfit::{Empty, Focus, Light, Outcome, Scene, Settings, ShadowMap, Surrounded, View, Warp};
 
 use crate::place::{in_f32, is_inside};
 
@@ -28,9 +28,9 @@ fn point(position: DVec3) -> Light {
 }
 
 /// What is visible, as far as it is no nearer to the light than its near distance, is in the map.
-fn assert_serves(map: &Map, light: &Light) {
+fn assert_serves(map: &ShadowMap, light: &Light) {
     let position = light.position().expect("at a position");
-    for corner in Focus::new(&view(), light, &scene()).visible().vertices() {
+    for corner in Focus::new(&view(), light, &scene()).receiver_volume().vertices() {
         let arm = *corner - position;
         for part in [1.0, 0.5, 0.1, light.near() / arm.length()] {
             let point = position + arm * part;
@@ -55,7 +55,7 @@ fn a_light_in_a_visible_corner_has_a_map() {
                 let report = map.report(&focus);
                 assert!(report.aliasing.is_finite() && report.texel.is_finite());
                 assert!(map.aliasing_over(&focus).expect("something is visible").worst.is_finite());
-                assert!(focus.limit(&Settings::default()) > 0.0);
+                assert!(focus.aliasing_lower_bound(&Settings::default()) > 0.0);
             }
         }
     }
@@ -107,13 +107,13 @@ fn nothing_casts_on_the_light_itself() {
     let scene = Scene::from_box(CORNER, CORNER).expect("a point");
     for light in [point(CORNER), hemisphere(CORNER)] {
         let outcome = Focus::new(&view(), &light, &scene).fit(&Settings::default());
-        assert_eq!(outcome, Outcome::Empty(Empty::NothingCasts));
+        assert_eq!(outcome, Outcome::Empty(Empty::NoCasters));
     }
     // All of it nearer than the near distance: likewise, in a corner of it and beside it.
     let scene = Scene::from_box(CORNER - 0.01, CORNER).expect("small");
     for at in [CORNER, CORNER + 0.001] {
         let outcome = Focus::new(&view(), &point(at), &scene).fit(&Settings::default());
-        assert_eq!(outcome, Outcome::Empty(Empty::NothingCasts), "{at}");
+        assert_eq!(outcome, Outcome::Empty(Empty::NoCasters), "{at}");
     }
 }
 

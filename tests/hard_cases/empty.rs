@@ -2,7 +2,9 @@
 
 use shadowfit::glam::DVec3;
 use shadowfit::{
-    Aabb, ConvexScene, DAabb, Empty, Focus, Form, Hint, Light, Outcome, Plane, Scene, Settings, View, fit,
+    Aabb, Empty, Focus, FocusForm, Light, Outcome, Scene, Settings, View, fit,
+    focus::Plane,
+    input::{ConvexScene, DAabb, Hint},
 };
 
 fn view() -> View {
@@ -24,8 +26,11 @@ fn assert_empty(scene: &Scene<'_>, why: Empty) {
     for light in lights() {
         let focus = Focus::new(&view(), &light, scene);
         assert_eq!(focus.fit(&Settings::default()), Outcome::Empty(why), "{light:?}");
-        assert_eq!(focus.visible().is_empty(), why == Empty::NothingVisible);
-        assert!(focus.body(Form::Tight).is_empty() && focus.body(Form::Paper).is_empty());
+        assert_eq!(focus.receiver_volume().is_empty(), why == Empty::NoReceivers);
+        assert!(
+            focus.caster_volume(FocusForm::ReceiverHull).is_empty()
+                && focus.caster_volume(FocusForm::ViewHull).is_empty()
+        );
     }
 }
 
@@ -33,10 +38,10 @@ fn assert_empty(scene: &Scene<'_>, why: Empty) {
 #[test]
 fn lists_without_a_box() {
     let one = [Aabb::new([-5.0, 0.0, -5.0], [5.0, 1.0, 5.0])];
-    assert_empty(&Scene::new::<Aabb>(&[], &[]).expect("empty"), Empty::NothingVisible);
-    assert_empty(&Scene::new(&one, &[]).expect("no receivers"), Empty::NothingVisible);
-    assert_empty(&Scene::new(&[], &one).expect("no casters"), Empty::NothingCasts);
-    assert_empty(&Scene::new::<DAabb>(&[], &[]).expect("empty"), Empty::NothingVisible);
+    assert_empty(&Scene::new::<Aabb>(&[], &[]).expect("empty"), Empty::NoReceivers);
+    assert_empty(&Scene::new(&one, &[]).expect("no receivers"), Empty::NoReceivers);
+    assert_empty(&Scene::new(&[], &one).expect("no casters"), Empty::NoCasters);
+    assert_empty(&Scene::new::<DAabb>(&[], &[]).expect("empty"), Empty::NoReceivers);
 }
 
 /// As engines mark a box around nothing: by infinities or by the largest numbers.
@@ -44,9 +49,9 @@ fn lists_without_a_box() {
 fn boxes_around_nothing() {
     let one = Aabb::new([-5.0, 0.0, -5.0], [5.0, 1.0, 5.0]);
     for nothing in [Aabb::EMPTY, Aabb::new([f32::MAX; 3], [f32::MIN; 3])] {
-        assert_empty(&Scene::from_box(nothing.min, nothing.max).expect("empty"), Empty::NothingVisible);
-        assert_empty(&Scene::new(&[nothing], &[nothing, nothing]).expect("empty"), Empty::NothingVisible);
-        assert_empty(&Scene::new(&[nothing], &[nothing, one]).expect("no casters"), Empty::NothingCasts);
+        assert_empty(&Scene::from_box(nothing.min, nothing.max).expect("empty"), Empty::NoReceivers);
+        assert_empty(&Scene::new(&[nothing], &[nothing, nothing]).expect("empty"), Empty::NoReceivers);
+        assert_empty(&Scene::new(&[nothing], &[nothing, one]).expect("no casters"), Empty::NoCasters);
         assert!(ConvexScene::new(nothing.min, nothing.max, &[]).is_ok());
         // Among others they are passed over.
         let boxes = [nothing, one, nothing];
@@ -78,13 +83,13 @@ fn scenes_cut_to_nothing() {
     let many = [away; 80];
     for planes in [&[away][..], &[Plane::new(DVec3::X, 0.0), Plane::new(DVec3::NEG_X, -1.0)], &many] {
         let scene = ConvexScene::new(min, max, planes).expect("empty");
-        assert_empty(&Scene::from_convex(&scene), Empty::NothingVisible);
+        assert_empty(&Scene::from_convex(&scene), Empty::NoReceivers);
     }
     // More planes than have names, of which the last leaves nothing.
     let mut planes = vec![Plane::new(DVec3::Y, 0.0); 70];
     planes.push(away);
     let scene = ConvexScene::new(min, max, &planes).expect("empty");
-    assert_empty(&Scene::from_convex(&scene), Empty::NothingVisible);
+    assert_empty(&Scene::from_convex(&scene), Empty::NoReceivers);
     let none = ConvexScene::around([DVec3::ZERO; 0]).expect("empty");
-    assert_empty(&Scene::from_convex(&none), Empty::NothingVisible);
+    assert_empty(&Scene::from_convex(&none), Empty::NoReceivers);
 }

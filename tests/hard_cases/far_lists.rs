@@ -4,7 +4,7 @@ use crate::place::{in_f32, is_inside};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use shadowfit::glam::{DVec3, Vec3};
-use shadowfit::{Aabb, DAabb, Focus, Light, Origin, Outcome, Scene, Settings, View};
+use shadowfit::{Aabb, Focus, Light, Origin, Outcome, Scene, Settings, View, input::DAabb};
 
 /// Where single precision has steps of half a unit.
 const FAR: DVec3 = DVec3::new(6e6, 0.0, -6e6);

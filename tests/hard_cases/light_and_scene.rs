@@ -1,7 +1,10 @@
 //! Rows 9 to 14: casters about the camera plane, and lamps among what they light.
 
 use shadowfit::glam::{DVec3, DVec4};
-use shadowfit::{CubeFace, Focus, Light, Outcome, Paraboloids, Scene, View};
+use shadowfit::{
+    Focus, Light, Outcome, Scene, View,
+    omni::{CubeFace, Paraboloids},
+};
 
 use crate::place::{assert_order, in_f32, is_inside, lamp, map, place, settings, slack, sun, view, visible, wide};
 use crate::sweep::{about, powers, steps};
@@ -63,7 +66,7 @@ fn row_11_plane_c_grazes_what_is_visible() {
         for step in 0..=400 {
             let light = sun(DVec3::new(0.0, f64::from(step) / 200.0, -1.0));
             let map = map(&view, &light, &scene, &settings());
-            let w = map.shadow_from_world().row(3);
+            let w = map.clip_from_world().row(3);
             let points = visible(&view, &light, &scene);
             let ws = points.iter().map(|p| w.dot(p.extend(1.0)));
             let (least, most) = ws.fold((f64::INFINITY, 0.0_f64), |(a, b), w| (a.min(w), b.max(w)));
@@ -91,7 +94,7 @@ fn row_12_lamp_inside_what_is_visible() {
                 true
             }
             Outcome::Map(map) => {
-                assert!(map.matrix().is_finite());
+                assert!(map.caster_matrix().is_finite());
                 false
             }
             Outcome::Empty(why) => panic!("{why}"),

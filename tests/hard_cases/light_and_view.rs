@@ -1,7 +1,10 @@
 //! Rows 1 to 8, 15 and 16: where the light stands to the view.
 
 use shadowfit::glam::DVec3;
-use shadowfit::{ClassKind, Focus, Form, Light, Map, Outcome, Scene, View, Warp, classify};
+use shadowfit::{
+    Focus, FocusForm, Light, Outcome, Scene, ShadowMap, View, Warp,
+    warp::{ClassKind, classify},
+};
 
 use crate::place::{
     assert_holds, assert_order, change, in_f32, is_inside, lamp, map, place, settings, slack, sun, turned_view,
@@ -16,7 +19,7 @@ use crate::tables::setup::{Lamp, Setup};
 /// That a family of maps changes about 0 by no more than in proportion: by at most four times (a kink, where another vertex
 /// begins to limit the warp, may double a slope, and double it again) what the steepest of the first eight powers of ten
 /// changes for as large a step, and by what rounding of the input does and of the fit.
-fn assert_proportional(fit: impl Fn(f64) -> Map, points: &[DVec3], reach: f64) {
+fn assert_proportional(fit: impl Fn(f64) -> ShadowMap, points: &[DVec3], reach: f64) {
     let middle = fit(0.0);
     let coarse = powers().filter(|by| by.abs() > 1e-8);
     let steepest = coarse.map(|by| change(&fit(by), &middle, points) / by.abs()).fold(0.0, f64::max);
@@ -35,14 +38,14 @@ fn row_01_light_in_the_image_plane() {
     let (view, scene) = (view(), wide());
     for make in [sun, lamp] {
         let at = |z: f64| map(&view, &make(DVec3::new(30.0, 40.0, z)), &scene, &settings());
-        assert_eq!(at(0.0).shadow_from_world(), at(-0.0).shadow_from_world());
+        assert_eq!(at(0.0).clip_from_world(), at(-0.0).clip_from_world());
         for z in [0.0, -0.0] {
             let light = make(DVec3::new(30.0, 40.0, z));
             assert_eq!(classify(&view, &light).kind, ClassKind::Directional);
             let map = at(z);
             // The warp has just the ratio that it may have, but for rounding.
             assert!(map.weakening() <= f64::EPSILON, "{:e}", map.weakening());
-            let w = map.shadow_from_world().row(3);
+            let w = map.clip_from_world().row(3);
             let points = visible(&view, &light, &scene);
             let ratio = |p: DVec3| w.dot(p.extend(1.0)) / view.depth(p);
             for &p in &points {
@@ -52,7 +55,7 @@ fn row_01_light_in_the_image_plane() {
         }
         // The neighbours of zero take the same path: subnormal numbers are not worth a rounding.
         for z in steps(0.0) {
-            assert_eq!(at(z).shadow_from_world(), at(0.0).shadow_from_world(), "{z:e}");
+            assert_eq!(at(z).clip_from_world(), at(0.0).clip_from_world(), "{z:e}");
         }
     }
 }
@@ -147,13 +150,13 @@ fn row_05_lamp_where_silhouettes_degenerate() {
     for position in places {
         let light = lamp(position);
         let focus = Focus::new(&view, &light, &scene);
-        assert_holds(&focus.body(Form::Paper), &exact_body(&view, &light, min, max), &position);
+        assert_holds(&focus.caster_volume(FocusForm::ViewHull), &exact_body(&view, &light, min, max), &position);
         let map = match focus.fit(&settings()) {
             Outcome::Map(map) => map,
             other => panic!("R is before the camera plane, the lamp is not among it: {other:?}"),
         };
-        assert!(map.matrix().is_finite());
-        for &p in focus.visible().vertices() {
+        assert!(map.caster_matrix().is_finite());
+        for &p in focus.receiver_volume().vertices() {
             assert!(is_inside(in_f32(&map, p)), "{position}: {p} is at {}", place(&map, p));
         }
     }
@@ -187,7 +190,7 @@ fn row_06_sun_in_the_image() {
             let light = sun(DVec3::new(slope, 0.5 * slope, -1.0));
             let map = map(&view, &light, &scene, &settings());
             for p in visible(&view, &light, &scene) {
-                assert!(map.shadow_from_world().row(3).dot(p.extend(1.0)) > 0.0, "{far:e}, {slope}: {p}");
+                assert!(map.clip_from_world().row(3).dot(p.extend(1.0)) > 0.0, "{far:e}, {slope}: {p}");
                 assert!(is_inside(in_f32(&map, p)), "{far:e}, {slope}: {p}");
             }
         }
@@ -210,7 +213,7 @@ fn row_07_light_along_the_view() {
             // The padding, which follows f32's rounding, is all that may differ.
             assert!(change(&warped, &uniform, &points) <= 1e-6);
             // along = −l: forward for the sun behind the viewer.
-            let along_y = warped.shadow_from_world().row(1).truncate().normalize();
+            let along_y = warped.clip_from_world().row(1).truncate().normalize();
             let expected = view.up() * -sign;
             assert!((along_y - expected).length() <= 1e-9, "{along_y}, {expected}");
         }
@@ -237,7 +240,7 @@ fn row_08_light_nearly_along_the_view() {
                     .map(|warp| map(&view, &light, &scene, &settings().with_warp(warp)));
                 assert!(warped.warp_ratio() <= allowed * (1.0 + 1e-9), "{sine:e}: {}", warped.warp_ratio());
                 let worst =
-                    |map: &Map| points.iter().map(|&p| map.aliasing(p).expect("inside")).fold(0.0, f64::max);
+                    |map: &ShadowMap| points.iter().map(|&p| map.aliasing(p).expect("inside")).fold(0.0, f64::max);
                 let (of_warped, of_uniform) = (worst(&warped), worst(&uniform));
                 // The two windows are padded each for its own rounding in f32, by millionths.
                 let factor = allowed * allowed * (1.0 + 1e-5);
@@ -280,7 +283,7 @@ fn row_15_lamp_far_away_is_the_sun() {
 fn axes(view: &View, direction_to_light: DVec3) -> [DVec3; 2] {
     let settings = settings().with_warp(Warp::Uniform);
     let map = map(view, &sun(direction_to_light), &wide(), &settings);
-    [0, 1].map(|row| map.shadow_from_world().row(row).truncate().normalize())
+    [0, 1].map(|row| map.clip_from_world().row(row).truncate().normalize())
 }
 
 /// The frame turns with the light continuously, also where up vectors are usually switched: the light straight above, along

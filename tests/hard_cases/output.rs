@@ -2,11 +2,15 @@
 
 use shadowfit::glam::{DVec3, Vec3};
 use shadowfit::{
-    Aabb, ComparisonTolerance, Filter, Focus, Light, Map, Paraboloids, Rule, Scene, Settings, TangentPlane, View,
-    Warp,
+    Aabb, Filter, Focus, Light, Scene, Settings, ShadowMap, View, Warp,
+    depth::{ComparisonTolerance, Decision, TangentPlane},
+    omni::Paraboloids,
 };
 #[cfg(feature = "std")]
-use shadowfit::{Culling, DepthTest, Solidity};
+use shadowfit::{
+    depth::{Culling, DepthTest},
+    mesh::Solidity,
+};
 
 use crate::place::{in_f32, is_inside, lamp, map, place, settings, sun, turned_view, wide};
 use crate::sweep::{about, powers};
@@ -30,8 +34,8 @@ fn row_29_rounding_to_f32() {
             for warp in [Warp::Uniform, Warp::Perspective] {
                 let focus = Focus::new(&view, &light, &scene);
                 let map = focus.fit(&settings().with_warp(warp)).map().copied().expect("one map does");
-                let visible = focus.visible();
-                let body = focus.body(shadowfit::Form::Tight);
+                let visible = focus.receiver_volume();
+                let body = focus.caster_volume(shadowfit::FocusForm::ReceiverHull);
                 for &p in visible.vertices() {
                     assert!(is_inside(in_f32(&map, p)), "{light:?}, {warp:?}: {p} of R");
                     // H on the ray: as far towards the light as its planes go.
@@ -54,15 +58,15 @@ fn row_29_rounding_to_f32() {
 #[test]
 fn row_30_receiver_at_the_edge_of_the_window() {
     let view = turned_view();
-    for filter in [Filter::Nearest, Filter::Hardware, Filter::PercentageCloser(5)] {
+    for filter in [Filter::Nearest, Filter::Hardware2x2, Filter::Pcf(5)] {
         for size in [64, 512, 2048] {
             let settings = Settings::new(size, 1080).and_then(|s| s.with_border(filter.border())).expect("sound");
             for light in lights(&view) {
                 let focus = Focus::new(&view, &light, &wide());
                 let map = focus.fit(&settings).map().copied().expect("one map does");
                 let mut nearest = f64::INFINITY;
-                for &p in focus.visible().vertices() {
-                    let coordinates = map.texture_matrix() * p.as_vec3().extend(1.0);
+                for &p in focus.receiver_volume().vertices() {
+                    let coordinates = map.receiver_matrix() * p.as_vec3().extend(1.0);
                     for i in 0..2 {
                         let texel = f64::from(coordinates[i]) / f64::from(coordinates[3]) * f64::from(size);
                         // The middles of the texels that are read lie no farther away.
@@ -92,7 +96,7 @@ fn row_31_receiver_deeper_than_the_farthest_caster() {
         for light in [sun(DVec3::Z), sun(DVec3::new(0.1, 0.05, 1.0)), lamp(DVec3::new(1.0, 2.0, 5.0))] {
             let focus = Focus::new(&view, &light, &scene);
             let map = focus.fit(&settings()).map().copied().expect("the caster shades the wall");
-            for &p in focus.visible().vertices() {
+            for &p in focus.receiver_volume().vertices() {
                 let clip = in_f32(&map, p);
                 assert!(clip.z <= clip.w, "{wall}, {light:?}: {p} is clipped at {}", clip.z / clip.w);
                 let (min, max) = (caster[0].min.as_dvec3(), caster[0].max.as_dvec3());
@@ -109,7 +113,7 @@ fn row_31_receiver_deeper_than_the_farthest_caster() {
 }
 
 /// A map of a floor under a slanting sun, and the floor's plane at a point of it.
-fn floor(warp: Warp) -> (Map, TangentPlane) {
+fn floor(warp: Warp) -> (ShadowMap, TangentPlane) {
     let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.3, -1.0), DVec3::Y, 1.0, 1.6, 0.1, 60.0).expect("sound");
     let scene = Scene::from_box((-30.0, 0.0, -30.0), (30.0, 5.0, 30.0)).expect("sound");
     let map = map(&view, &sun(DVec3::new(0.4, 0.3, 0.5)), &scene, &settings().with_warp(warp));
@@ -117,7 +121,7 @@ fn floor(warp: Warp) -> (Map, TangentPlane) {
     (map, plane)
 }
 
-fn centre(map: &Map, x: u32, y: u32) -> shadowfit::glam::DVec2 {
+fn centre(map: &ShadowMap, x: u32, y: u32) -> shadowfit::glam::DVec2 {
     let size = f64::from(map.settings().map_size());
     shadowfit::glam::DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) / size
 }
@@ -129,8 +133,8 @@ fn centre(map: &Map, x: u32, y: u32) -> shadowfit::glam::DVec2 {
 fn row_32_caster_touching_its_receiver() {
     #[cfg(feature = "std")]
     {
-        assert_eq!(DepthTest::First.culling(Solidity::Solid), Culling::None);
-        assert_eq!(DepthTest::Second.culling(Solidity::Solid), Culling::Front);
+        assert_eq!(DepthTest::First.culling(Solidity::Watertight), Culling::None);
+        assert_eq!(DepthTest::Second.culling(Solidity::Watertight), Culling::Front);
     }
     let (map, plane) = floor(Warp::Perspective);
     for tolerance in powers().filter(|x| *x > 0.0) {
@@ -166,7 +170,7 @@ fn row_33_at_most_and_not_less() {
     assert!(sheet.tolerance(&none) <= 1e-15, "{:e}", sheet.tolerance(&none));
     let stored = |depth: f64| [sheet.blended(&none, |_, _| depth), sheet.mean(3, &none, |_, _| depth)];
     for own in stored(depth) {
-        assert_eq!((own.share, own.rule), (1.0, Rule::AllPass));
+        assert_eq!((own.share, own.rule), (1.0, Decision::AllPass));
     }
     for beyond in powers().map(f64::abs).filter(|by| *by >= 1e-14) {
         for (sampled, share) in

@@ -1,7 +1,9 @@
 //! Where maps put points, and how far rounding can carry them.
 
 use shadowfit::glam::{DVec3, Vec4};
-use shadowfit::{Body, ClipSpace, Focus, Light, Map, Outcome, Scene, Settings, Shift, View, Warp};
+use shadowfit::{
+    ClipSpace, Focus, Light, Outcome, Scene, Settings, ShadowMap, View, Warp, focus::ConvexBody, warp::Shift,
+};
 
 use crate::tables::arithmetic::{Big, Real};
 use crate::tables::linear::{V4, dot, homogeneous};
@@ -34,7 +36,7 @@ pub(crate) fn settings() -> Settings {
     Settings::default().with_warp(Warp::Perspective).with_shift(Shift::None)
 }
 
-pub(crate) fn map(view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) -> Map {
+pub(crate) fn map(view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) -> ShadowMap {
     match Focus::new(view, light, scene).fit(settings) {
         Outcome::Map(map) => map,
         other => panic!("one map does: {other:?}"),
@@ -42,14 +44,14 @@ pub(crate) fn map(view: &View, light: &Light, scene: &Scene<'_>, settings: &Sett
 }
 
 /// x, y and z after the division, depth from 0 to 1.
-pub(crate) fn place(map: &Map, point: DVec3) -> DVec3 {
-    map.shadow_from_world_in(ClipSpace::WGPU).project_point3(point)
+pub(crate) fn place(map: &ShadowMap, point: DVec3) -> DVec3 {
+    map.clip_from_world_in(ClipSpace::WGPU).project_point3(point)
 }
 
 /// How far the roundings of a fit can carry a coordinate: 64 of terms as large as a row's normal times everything that went
 /// into it (as in `tests/properties.rs`), here of coordinates up to `reach`.
-pub(crate) fn slack(map: &Map, point: DVec3, reach: f64) -> f64 {
-    let matrix = map.shadow_from_world_in(ClipSpace::WGPU);
+pub(crate) fn slack(map: &ShadowMap, point: DVec3, reach: f64) -> f64 {
+    let matrix = map.clip_from_world_in(ClipSpace::WGPU);
     let of = |row: usize| {
         let row = matrix.row(row);
         64.0 * f64::EPSILON * (row.truncate().length() * 2.0 * reach + row.w.abs())
@@ -60,9 +62,9 @@ pub(crate) fn slack(map: &Map, point: DVec3, reach: f64) -> f64 {
 }
 
 /// What a renderer's f32 makes of a position.
-pub(crate) fn in_f32(map: &Map, point: DVec3) -> Vec4 {
+pub(crate) fn in_f32(map: &ShadowMap, point: DVec3) -> Vec4 {
     let origin = map.origin();
-    map.matrix() * (point - origin).as_vec3().extend(1.0)
+    map.caster_matrix() * (point - origin).as_vec3().extend(1.0)
 }
 
 /// In the clip volume, depth 0 to 1, w > 0.
@@ -71,12 +73,12 @@ pub(crate) fn is_inside(clip: Vec4) -> bool {
 }
 
 /// The largest change of any point's place between two maps.
-pub(crate) fn change(a: &Map, b: &Map, points: &[DVec3]) -> f64 {
+pub(crate) fn change(a: &ShadowMap, b: &ShadowMap, points: &[DVec3]) -> f64 {
     points.iter().map(|&p| (place(a, p) - place(b, p)).abs().max_element()).fold(0.0, f64::max)
 }
 
 /// That a body holds exact points, homogeneous with w > 0: each is inside every plane, exactly.
-pub(crate) fn assert_holds(body: &Body, points: &[V4<Big>], what: &dyn std::fmt::Debug) {
+pub(crate) fn assert_holds(body: &ConvexBody, points: &[V4<Big>], what: &dyn std::fmt::Debug) {
     assert!(points.is_empty() || !body.is_empty(), "{what:?}: all of it is lost");
     for plane in body.planes() {
         let plane: V4<Big> = homogeneous(plane.to_row());
@@ -88,13 +90,13 @@ pub(crate) fn assert_holds(body: &Body, points: &[V4<Big>], what: &dyn std::fmt:
 
 /// The vertices of R.
 pub(crate) fn visible(view: &View, light: &Light, scene: &Scene<'_>) -> Vec<DVec3> {
-    Focus::new(view, light, scene).visible().vertices().to_vec()
+    Focus::new(view, light, scene).receiver_volume().vertices().to_vec()
 }
 
 /// e·l < 0, and casters on the rays of receivers are before them.
-pub(crate) fn assert_order(map: &Map, light: &Light, receivers: &[DVec3]) {
+pub(crate) fn assert_order(map: &ShadowMap, light: &Light, receivers: &[DVec3]) {
     let l = light.homogeneous();
-    let matrix = map.shadow_from_world_in(ClipSpace::WGPU);
+    let matrix = map.clip_from_world_in(ClipSpace::WGPU);
     assert!(matrix.row(2).dot(l) < 0.0, "{light:?}");
     for &receiver in receivers {
         let behind = place(map, receiver);

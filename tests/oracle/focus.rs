@@ -28,7 +28,10 @@ use std::cell::RefCell;
 use std::cmp::Ordering;
 
 use glam::{DVec3, Vec3};
-use shadowfit::{Aabb, Body as Computed, Focus, Form, Plane, View};
+use shadowfit::{
+    Aabb, Focus, FocusForm, View,
+    focus::{ConvexBody as Computed, Plane},
+};
 
 use crate::arbitrary::{Case, SceneParams, case, plane, run, wide_door};
 use crate::body::Body;
@@ -81,7 +84,11 @@ impl Input {
         let store = case.scene.store();
         let scene = store.scene().expect("the scene is accepted");
         let focus = Focus::new(&view, &light, &scene);
-        [focus.visible(), focus.body(Form::Paper), focus.body(Form::Tight)]
+        [
+            focus.receiver_volume(),
+            focus.caster_volume(FocusForm::ViewHull),
+            focus.caster_volume(FocusForm::ReceiverHull),
+        ]
     }
 
     /// The exact body of one of these.
@@ -271,14 +278,17 @@ fn cull(name: &str, computed: &Computed, exact: &Body) {
         // The rounded vertex is a rounding away from the exact one.
         let vertex = DVec3::from(vertex);
         let (min, max) = (vertex.map(f64::next_down), vertex.map(f64::next_up));
-        assert!(computed.meets_box(min, max), "{name}: a box at {vertex} is dropped");
+        assert!(computed.intersects_aabb(min, max), "{name}: a box at {vertex} is dropped");
         boxes.push(Aabb::new(min.as_vec3().map(f32::next_down), max.as_vec3().map(f32::next_up)));
 
         let arm = DVec3::AXES[index % 3] * [0.0, 1.0, -100.0, 1e-6][index % 4];
         let radius =
             |centre: DVec3| (centre.distance(vertex) + f64::EPSILON * vertex.length()) * (1.0 + 4.0 * f64::EPSILON);
         let centre = vertex + arm;
-        assert!(computed.meets_sphere(centre, radius(centre)), "{name}: a ball that reaches {vertex} is dropped");
+        assert!(
+            computed.intersects_sphere(centre, radius(centre)),
+            "{name}: a ball that reaches {vertex} is dropped"
+        );
         let centre: Vec3 = centre.as_vec3();
         balls.push(centre.extend((radius(centre.as_dvec3()) as f32).next_up()));
     }
@@ -308,15 +318,15 @@ pub(crate) fn check(case: &Case, figures: &mut [Figures; 3]) {
 
     let planes = input.planes();
     let visible = Body::from_exact_planes(planes.iter().map(exact).collect());
-    compare("R", &focus.visible(), &visible, &input.half_spaces(&planes), scale, of_visible);
+    compare("R", &focus.receiver_volume(), &visible, &input.half_spaces(&planes), scale, of_visible);
 
     let v: Vec<[f64; 4]> = input.v.iter().map(|plane| plane.to_row().to_array()).collect();
     let facets = hull(&v, input.light);
-    let (paper, computed) = (cut(&facets), focus.body(Form::Paper));
+    let (paper, computed) = (cut(&facets), focus.caster_volume(FocusForm::ViewHull));
     compare("paper", &computed, &paper, &bounded(facets, input.displacement_of_view()), scale, of_paper);
     cull("paper", &computed, &paper);
 
-    let (tight, computed) = (cut(&input.hull_of(&visible)), focus.body(Form::Tight));
+    let (tight, computed) = (cut(&input.hull_of(&visible)), focus.caster_volume(FocusForm::ReceiverHull));
     let grown = input.grown_visible(1.0);
     let more = input.grown_visible(2.0).vertices_f64().into_iter().map(|vertex| grown.distance(vertex));
     let bound = if grown.is_empty() { 0.0 } else { 2.0 * more.fold(0.0, f64::max) };

@@ -20,7 +20,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use shadowfit::Plane;
+use shadowfit::focus::Plane;
 
 use crate::arbitrary::{Case, SceneParams, case};
 use crate::body::Body;

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use glam::DVec3;
-use shadowfit::{Body as Computed, Plane};
+use shadowfit::focus::{ConvexBody as Computed, Plane};
 
 use crate::body::Body;
 use crate::focus::{facets, outside};

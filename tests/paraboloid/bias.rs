@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, Vec4Swizzles};
 use proptest::prelude::*;
-use shadowfit::{DepthFormat, Offset, Origin, Problem, Settings};
+use shadowfit::{DepthFormat, Origin, Settings, depth::ReceiverOffset, input::InputErrorKind};
 
 use super::{both, direction_about, from_light};
 use crate::arbitrary::{Case, LightParams, Numbers, Pose, SceneParams, ViewParams, case, run, settings};
@@ -46,7 +46,7 @@ fn no_plane_shadows_itself_and_less_is_not_enough() {
                 continue;
             }
             cases += 1;
-            let all = stored(plane, place, texel, bias.slope.into());
+            let all = stored(plane, place, texel, bias.slope_scale.into());
             // Half of the reach and nothing for rounding.
             let less = stored(plane, place, texel, 0.5 * reach);
             let mut farthest: f64 = 0.0;
@@ -64,7 +64,10 @@ fn no_plane_shadows_itself_and_less_is_not_enough() {
             }
         }
         assert!(too_little * 10 > cases * 9, "{too_little} of {cases}");
-        assert!(f64::from(bias.slope) >= reach && f64::from(bias.slope) <= 1.05 * reach + 0.15, "{bias:?}");
+        assert!(
+            f64::from(bias.slope_scale) >= reach && f64::from(bias.slope_scale) <= 1.05 * reach + 0.15,
+            "{bias:?}"
+        );
         assert!(wasted < 2.0, "{wasted}");
     }
 }
@@ -119,12 +122,13 @@ fn receivers_are_moved_by_just_what_is_asked_for() {
         let away = 1.0 + 5.0 * numbers.part();
         let point = map.position() + from_light(&map, local) * away;
         for (offset, moved) in [
-            (Offset::world(0.25), 0.25),
-            (Offset::relative(0.25), 0.2 * away),
-            (Offset::depth(0.25), 0.25 * range),
-            (Offset::world(-0.25), -0.25),
+            (ReceiverOffset::world(0.25), 0.25),
+            (ReceiverOffset::relative(0.25), 0.2 * away),
+            (ReceiverOffset::depth(0.25), 0.25 * range),
+            (ReceiverOffset::world(-0.25), -0.25),
         ] {
-            let q = map.receiver_matrix(&offset.expect("sound")) * (point - map.origin()).as_vec3().extend(1.0);
+            let q =
+                map.receiver_matrix_with(&offset.expect("sound")) * (point - map.origin()).as_vec3().extend(1.0);
             let length = q.xyz().length();
             let place = (q.xy() / (length + q.z)).as_dvec2();
             let exact = map.project(point).expect("not behind");
@@ -144,13 +148,15 @@ fn what_a_bias_costs_is_a_distance() {
     let slanted = map.bias_distance(point, from_light(&map, DVec3::new(0.6, 0.0, -0.8)), &bias);
     // In the middle a texel is seen under 4/n.
     let texel = 2.0 * 4.0 / f64::from(map.settings().map_size());
-    let slope = f64::from(bias.slope) * texel * 0.75;
+    let slope = f64::from(bias.slope_scale) * texel * 0.75;
     assert!(facing > 0.0 && facing < 1e-4 * (map.far() - map.near()), "{facing}");
     assert!((slanted - facing - slope).abs() < 0.01 * slope, "{slanted}, not {slope}");
     assert_eq!(map.bias_distance(point, from_light(&map, DVec3::X), &bias), f64::INFINITY);
-    for (reach, problem) in [(0.4, Problem::TooSmall), (1e9, Problem::TooLarge), (f64::NAN, Problem::NotFinite)] {
+    for (reach, problem) in
+        [(0.4, InputErrorKind::TooSmall), (1e9, InputErrorKind::TooLarge), (f64::NAN, InputErrorKind::NotFinite)]
+    {
         let error = map.bias(DepthFormat::Float32, reach).expect_err("no reach");
         assert_eq!((error.field, error.problem), ("reach", problem));
     }
-    assert_eq!(bias.in_shader().y, bias.slope);
+    assert_eq!(bias.in_shader().y, bias.slope_scale);
 }

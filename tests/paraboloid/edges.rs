@@ -1,7 +1,7 @@
 //! What a paraboloid map makes of straight edges, which it draws straight.
 
 use glam::DVec3;
-use shadowfit::{Paraboloid, Settings};
+use shadowfit::{Settings, omni::Paraboloid};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{both, direction_about, from_light};
@@ -138,6 +138,6 @@ fn the_largest_edge_is_no_more_than_a_right_angle() {
         let angle = map.largest_edge(texels);
         assert!(angle <= FRAC_PI_2, "{angle:?}");
         #[cfg(feature = "spade")]
-        assert!(shadowfit::Refiner::new(map.position(), map.near(), angle).is_ok());
+        assert!(shadowfit::mesh::Tessellator::new(map.position(), map.near(), angle).is_ok());
     }
 }

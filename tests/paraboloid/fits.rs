@@ -2,7 +2,12 @@
 
 use glam::DVec3;
 use proptest::prelude::*;
-use shadowfit::{Body, Empty, Focus, Light, Paraboloid, Paraboloids, Problem, Settings, View};
+use shadowfit::{
+    Empty, Focus, Light, Settings, View,
+    focus::ConvexBody,
+    input::InputErrorKind,
+    omni::{Paraboloid, Paraboloids},
+};
 use std::cell::Cell;
 
 use super::{lamp, room, view};
@@ -64,9 +69,9 @@ fn which_hemispheres() {
     assert!(matches!(fit(&lamp([0.0, 0.0, 0.0])), Paraboloids::Two(_)));
     assert_eq!(fit(&Light::directional(DVec3::Y).expect("sound")), Paraboloids::Directional);
     let far_away = Light::point((900.0, 0.0, 0.0), 0.1, 5.0).expect("sound");
-    assert_eq!(fit(&far_away), Paraboloids::Empty(Empty::NothingVisible));
+    assert_eq!(fit(&far_away), Paraboloids::Empty(Empty::NoReceivers));
     let dark = Light::point((0.0, 0.0, 0.0), 900.0, 1000.0).expect("sound");
-    assert_eq!(fit(&dark), Paraboloids::Empty(Empty::NothingCasts));
+    assert_eq!(fit(&dark), Paraboloids::Empty(Empty::NoCasters));
 }
 
 #[test]
@@ -90,7 +95,7 @@ fn errors_name_the_axis() {
     let (light, settings) = (lamp([0.0; 3]), Settings::default());
     let (view, scene) = (view(), room());
     let focus = Focus::new(&view, &light, &scene);
-    for (axis, problem) in [(DVec3::ZERO, Problem::NoDirection), (DVec3::NAN, Problem::NotFinite)] {
+    for (axis, problem) in [(DVec3::ZERO, InputErrorKind::NoDirection), (DVec3::NAN, InputErrorKind::NotFinite)] {
         let error = focus.paraboloids_about(axis, &settings).expect_err("no axis");
         assert_eq!((error.field, error.problem), ("axis", problem));
     }
@@ -104,10 +109,10 @@ fn a_fit_allocates_nothing() {
     let (view, scene) = (view(), room());
     for light in [lamp([0.0; 3]), lamp([0.0, 3.0, 0.0])] {
         let focus = Focus::new(&view, &light, &scene);
-        let visible: Body = focus.visible();
+        let visible: ConvexBody = focus.receiver_volume();
         let work = || {
             for map in focus.paraboloids(&Settings::default()).maps() {
-                std::hint::black_box((map.matrix(), map.clip_scale(), map.largest_edge(0.5)));
+                std::hint::black_box((map.caster_matrix(), map.clip_scale(), map.largest_edge(0.5)));
                 for &point in visible.vertices() {
                     std::hint::black_box((map.footprint(point), map.rounding(point)));
                 }

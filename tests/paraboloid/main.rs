@@ -14,7 +14,10 @@ mod projection;
 
 use arbitrary::Numbers;
 use glam::DVec3;
-use shadowfit::{Focus, Light, Paraboloid, Paraboloids, Scene, Settings, View};
+use shadowfit::{
+    Focus, Light, Scene, Settings, View,
+    omni::{Paraboloid, Paraboloids},
+};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 fn view() -> View {

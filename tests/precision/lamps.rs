@@ -4,15 +4,16 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use shadowfit::glam::{DVec3, Vec3};
 use shadowfit::{
-    Aabb, Budget, CubeFace, DepthFormat, Focus, Light, Map, Object, Objects, Origin, Scene, Settings, View, Warp,
-    plan,
+    Aabb, DepthFormat, Focus, Light, Origin, Scene, Settings, ShadowMap, View, Warp,
+    omni::CubeFace,
+    plan::{Budget, Object, Objects, plan},
 };
 
 /// How far from the origin, in metres.
 const DISTANCES: [f64; 6] = [0.0, 1e2, 1e3, 1e4, 3e4, 1e5];
 
 /// A cube's face of 512² of a lamp that reaches 20 m, and a wall 15 m away.
-fn face(at: f64, origin: Origin) -> (Map, DVec3) {
+fn face(at: f64, origin: Origin) -> (ShadowMap, DVec3) {
     let lamp = DVec3::new(at, 3.0, 0.6 * at);
     let view = View::perspective(lamp + DVec3::new(2.0, 0.0, 25.0), DVec3::NEG_Z, DVec3::Y, 1.2, 1.6, 0.1, 100.0);
     let light = Light::point(lamp, 0.05, 20.0).and_then(|lamp| lamp.cube_face(CubeFace::NegativeZ, 0.0));

@@ -2,8 +2,8 @@
 
 use shadowfit::glam::DVec3;
 use shadowfit::{
-    Aabb, Budget, DepthFormat, Light, Map, Object, Objects, Outcome, Projection, Scene, Settings, View, Warp, fit,
-    plan,
+    Aabb, DepthFormat, Light, Outcome, Scene, Settings, ShadowMap, View, Warp, fit,
+    plan::{Budget, Object, Objects, Projection, plan},
 };
 
 /// A near plane and a distance from the origin.
@@ -29,7 +29,7 @@ fn sun() -> Light {
 }
 
 /// How far behind its caster a shadow begins on the ground eleven metres ahead, and the longest side of a texel there.
-fn measured(map: &Map, x: f64) -> [f64; 2] {
+fn measured(map: &ShadowMap, x: f64) -> [f64; 2] {
     let point = DVec3::new(x + 2.3, 0.0, 11.0);
     let bias = map.bias(DepthFormat::Unorm24, 1.0).expect("a legal reach");
     [map.bias_distance(point, DVec3::Y, &bias), map.footprint(point).expect("in the map").longest()]

@@ -4,7 +4,7 @@ use crate::place::{Receiver, Town};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use shadowfit::glam::DVec3;
-use shadowfit::{DepthFormat, Focus, Light, Map, Origin, Scene, Settings, View};
+use shadowfit::{DepthFormat, Focus, Light, Origin, Scene, Settings, ShadowMap, View};
 use shadowfit::{Outcome, Warp};
 use std::f64::consts::TAU;
 
@@ -48,7 +48,7 @@ impl Place {
         (receivers.len() >= 5).then_some(Self { town, view, light, receivers })
     }
 
-    fn fit(&self, settings: &Settings) -> Option<Map> {
+    fn fit(&self, settings: &Settings) -> Option<ShadowMap> {
         let scene = Scene::from_box(self.town.min, self.town.max).expect("a legal box");
         match Focus::new(&self.view, &self.light, &scene).fit(settings) {
             Outcome::Map(map) => Some(map),
@@ -57,7 +57,7 @@ impl Place {
     }
 
     /// What a map makes of what is seen.
-    fn measured(&self, map: &Map) -> Measured {
+    fn measured(&self, map: &ShadowMap) -> Measured {
         let bias = map.bias(DepthFormat::Unorm24, 1.0).expect("a legal reach");
         let (mut texel, mut behind, mut lost) = (0.0, 0.0, 0);
         for Receiver { hit, caster } in &self.receivers {

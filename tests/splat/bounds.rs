@@ -4,7 +4,7 @@ use crate::arbitrary::{Numbers, Similarity, Together, case, run, settings};
 use crate::rounds::{Round, Rows, direction, landscape, rounds};
 use glam::{DVec2, DVec3, DVec4};
 use proptest::prelude::*;
-use shadowfit::{Outcome, Settings, Splat, Warp};
+use shadowfit::{Outcome, Settings, Warp, depth::Splat};
 
 #[test]
 fn bounds_hold_balls_and_discs_and_touch_them() {

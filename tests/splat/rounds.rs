@@ -2,7 +2,12 @@
 
 use crate::arbitrary::{Case, Numbers, Together, points_of, sides};
 use glam::{DVec2, DVec3, DVec4};
-use shadowfit::{Light, Map, Scene, Settings, Splat, TextureOrigin, View, YAxis, fit};
+use shadowfit::{
+    Light, Scene, Settings, ShadowMap, View,
+    depth::Splat,
+    fit,
+    input::{TextureOrigin, YAxis},
+};
 
 /// A disc or, with a normal of zero, a ball.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +25,7 @@ impl Round {
         Self { centre: point, normal, radius: size * 10_f64.powf(1.0 - 7.0 * numbers.part()) }
     }
 
-    pub(crate) fn splat(&self, map: &Map) -> Option<Splat> {
+    pub(crate) fn splat(&self, map: &ShadowMap) -> Option<Splat> {
         match self.normal == DVec3::ZERO {
             true => map.splat(self.centre, self.radius),
             false => map.disc_splat(self.centre, self.normal, self.radius),
@@ -65,7 +70,7 @@ pub(crate) struct Rows {
 
 impl Rows {
     /// In f64: some dozen roundings, as in all properties of maps.
-    pub(crate) fn new(map: &Map, together: &Together, case: &Case) -> Self {
+    pub(crate) fn new(map: &ShadowMap, together: &Together, case: &Case) -> Self {
         let (min, max) = case.scene.bounds();
         let l = together.light.homogeneous();
         let reach = DVec3::from(min).abs().max(DVec3::from(max).abs())
@@ -74,7 +79,7 @@ impl Rows {
         Self::of(map, DVec3::ZERO, reach, 64.0 * f64::EPSILON)
     }
 
-    pub(crate) fn of(map: &Map, origin: DVec3, reach: DVec3, roundings: f64) -> Self {
+    pub(crate) fn of(map: &ShadowMap, origin: DVec3, reach: DVec3, roundings: f64) -> Self {
         let rows = map.texture_from_world().transpose();
         let sides = sides(map.settings());
         Self { x: rows.x_axis * sides.x, y: rows.y_axis * sides.y, w: rows.w_axis, origin, reach, roundings }
@@ -116,13 +121,13 @@ pub(crate) fn rounds(together: &Together, case: &Case, seed: u64) -> Vec<Round> 
     let (min, max) = case.scene.bounds();
     let size = (DVec3::from(max) - DVec3::from(min)).length().max(f64::MIN_POSITIVE);
     let mut numbers = Numbers(!seed);
-    let points = points_of(&together.focus().visible(), seed);
+    let points = points_of(&together.focus().receiver_volume(), seed);
     points.into_iter().map(|point| Round::about(point, size, &mut numbers)).collect()
 }
 
 pub(crate) const TO_SUN: DVec3 = DVec3::new(0.3, 1.0, 0.2);
 
-pub(crate) fn landscape(settings: &Settings) -> Map {
+pub(crate) fn landscape(settings: &Settings) -> ShadowMap {
     let view =
         View::perspective((0.0, 2.0, 12.0), (0.0, -0.2, -1.0), DVec3::Y, 1.0, 1.6, 0.5, 100.0).expect("sound");
     let scene = Scene::from_box((-20.0, -1.0, -20.0), (20.0, 4.0, 20.0)).expect("sound");
@@ -131,7 +136,7 @@ pub(crate) fn landscape(settings: &Settings) -> Map {
 }
 
 /// Texels of a clip position in the map's own convention.
-pub(crate) fn texels(map: &Map, [x, y, _]: [f32; 3]) -> DVec2 {
+pub(crate) fn texels(map: &ShadowMap, [x, y, _]: [f32; 3]) -> DVec2 {
     let clip = map.settings().clip();
     let from_top = (clip.y, clip.texture_origin) == (YAxis::Up, TextureOrigin::TopLeft);
     let v = if from_top { 0.5 - 0.5 * f64::from(y) } else { 0.5 + 0.5 * f64::from(y) };

@@ -4,7 +4,7 @@ use crate::arbitrary::{Numbers, Together, case, run, settings, sides};
 use crate::rounds::{Round, Rows, TO_SUN, direction, landscape, rounds, texels};
 use glam::{DMat3, DVec2, DVec3, Mat4, Vec2, Vec3};
 use proptest::prelude::*;
-use shadowfit::{Map, Outcome, Settings, Warp};
+use shadowfit::{Outcome, Settings, ShadowMap, Warp};
 
 /// What the shader does, operation by operation, in f32.
 fn mirrored(matrix: Mat4, centre: Vec3, normal: Vec3, radius: f32, map_sides: Vec2, corner: Vec2) -> [f32; 3] {
@@ -70,9 +70,9 @@ fn mirrored_offset(half: Vec2, mixed: f32, from_middle: Vec2) -> Vec2 {
 }
 
 /// What becomes of a corner of a disc's rectangle, with the offset in the ellipse, in a map about the world's origin.
-fn corner_of(map: &Map, disc: &Round, corner: Vec2) -> ([f32; 3], Vec2) {
+fn corner_of(map: &ShadowMap, disc: &Round, corner: Vec2) -> ([f32; 3], Vec2) {
     let (centre, normal, radius) = (disc.centre.as_vec3(), disc.normal.as_vec3(), disc.radius as f32);
-    mirrored_corner(map.matrix(), centre, normal, radius, sides(map.settings()).as_vec2(), corner)
+    mirrored_corner(map.caster_matrix(), centre, normal, radius, sides(map.settings()).as_vec2(), corner)
 }
 
 const CORNERS: [Vec2; 4] = [Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0), Vec2::new(-1.0, 1.0), Vec2::new(1.0, 1.0)];
@@ -104,7 +104,7 @@ fn the_shader_finds_the_same_bounds_and_the_depth_of_the_disc() {
             let corners = CORNERS.map(|corner| {
                 let centre = (round.centre - origin).as_vec3();
                 let (normal, radius) = (round.normal.as_vec3(), round.radius as f32);
-                mirrored(map.matrix(), centre, normal, radius, sides.as_vec2(), corner)
+                mirrored(map.caster_matrix(), centre, normal, radius, sides.as_vec2(), corner)
             });
             let grown = splat.half.max(DVec2::splat(0.5 + 1.0 / 256.0));
             assert_eq!(grown, splat.covering().half);
@@ -133,13 +133,13 @@ fn the_shader_gives_a_disc_the_depth_of_its_plane() {
     let mut deep = 0;
     for warp in [Warp::Uniform, Warp::Perspective] {
         let map = landscape(&Settings::default().with_warp(warp));
-        let rows = map.shadow_from_world().transpose();
+        let rows = map.clip_from_world().transpose();
         for _ in 0..5000 {
             let centre = DVec3::new(20.0 * numbers.part() - 10.0, numbers.part(), 8.0 - 16.0 * numbers.part());
             let (normal, radius) = (direction(&mut numbers), 0.01 + 0.4 * numbers.part());
             let disc = Round { centre, normal, radius };
             let corners = CORNERS.map(|corner| Vec3::from(corner_of(&map, &disc, corner).0).as_dvec3());
-            let depth = |point: DVec3| map.shadow_from_world().project_point3(point).z;
+            let depth = |point: DVec3| map.clip_from_world().project_point3(point).z;
             let span = (depth(disc.farthest(TO_SUN)) - depth(centre)).abs();
             let exact = corners.map(|corner| {
                 assert!(corner.is_finite());
@@ -185,7 +185,7 @@ fn the_shader_tells_discs_from_their_rectangles() {
             let offset_of = |share: f64, turn: f64| {
                 let way = DVec2::from_angle(turn);
                 let point = centre + share * radius * (way.x * x + way.y * y);
-                let place = map.shadow_from_world().project_point3(point).truncate();
+                let place = map.clip_from_world().project_point3(point).truncate();
                 offset_at(offsets, ((place - a) / DVec2::new(b.x - a.x, c.y - a.y)).as_vec2()).length()
             };
             let turns = || (0..24).map(|i| 0.26 * f64::from(i));

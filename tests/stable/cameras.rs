@@ -3,7 +3,7 @@
 use crate::arbitrary::{self};
 use glam::{DMat4, DQuat, DVec2, DVec3, Vec3, Vec4};
 use proptest::prelude::*;
-use shadowfit::{Aabb, ClipSpace, ConvexScene, InputError, Map, Scene, Settings, View, Warp};
+use shadowfit::{Aabb, ClipSpace, InputError, Scene, Settings, ShadowMap, View, Warp, input::ConvexScene};
 
 /// Where a camera is, from the middle of the scene, and how it is turned from looking along −z.
 #[derive(Clone, Copy, Debug)]
@@ -128,13 +128,13 @@ pub(crate) fn stable() -> impl Strategy<Value = Settings> {
 }
 
 /// Rows of the matrix: clip x and y from −1 to 1.
-pub(crate) fn rows(map: &Map) -> DMat4 {
-    map.shadow_from_world_in(ClipSpace::WGPU).transpose()
+pub(crate) fn rows(map: &ShadowMap) -> DMat4 {
+    map.clip_from_world_in(ClipSpace::WGPU).transpose()
 }
 
 /// Where a point is in the map, in texels.
-pub(crate) fn texels(map: &Map, point: DVec3) -> DVec2 {
-    let place = map.shadow_from_world_in(ClipSpace::WGPU).project_point3(point).truncate();
+pub(crate) fn texels(map: &ShadowMap, point: DVec3) -> DVec2 {
+    let place = map.clip_from_world_in(ClipSpace::WGPU).project_point3(point).truncate();
     (place * 0.5 + 0.5) * arbitrary::sides(map.settings())
 }
 
@@ -144,13 +144,13 @@ pub(crate) fn off_whole(difference: DVec2) -> f64 {
 }
 
 /// The sides of a texel of a directional light's map, in world units.
-pub(crate) fn sides(map: &Map) -> DVec2 {
+pub(crate) fn sides(map: &ShadowMap) -> DVec2 {
     DVec2::new(map.window().width, map.window().height) / arbitrary::sides(map.settings())
 }
 
 /// The place in the map of a position that is an f32 too, as a vertex shader finds it: x, y, z and at the end the offset.
-pub(crate) fn texels_in_f32(map: &Map, position: Vec3) -> DVec2 {
-    let matrix = map.matrix();
+pub(crate) fn texels_in_f32(map: &ShadowMap, position: Vec3) -> DVec2 {
+    let matrix = map.caster_matrix();
     let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis, matrix.w_axis];
     let [x, y, z, offset]: [Vec4; 4] = columns;
     let place = ((x * position.x + y * position.y) + z * position.z) + offset;

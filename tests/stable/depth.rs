@@ -5,7 +5,7 @@ use crate::cameras::{
     Form, Lens, Pose, form, lens, off_whole, rows, sides, stable, texels, texels_in_f32, two_poses,
 };
 use glam::{DQuat, DVec3};
-use shadowfit::{Light, Map, Origin, Settings, Warp, fit};
+use shadowfit::{Light, Origin, Settings, ShadowMap, Warp, fit};
 
 /// Both ends of the depth range are whole steps from the world's origin, a sixteenth of the window each.
 #[test]
@@ -18,7 +18,7 @@ fn depth_ranges_of_a_sun_move_in_steps() {
             let maps =
                 poses.map(|pose| fit(&lens.view(DVec3::ZERO, &pose), &light, scene, &settings).map().copied());
             let [Some(one), Some(other)] = maps else { return };
-            let ends = |map: &Map| {
+            let ends = |map: &ShadowMap| {
                 let row = rows(map).z_axis;
                 let length = row.truncate().length().recip();
                 [-row.w * length, (1.0 - row.w) * length]
@@ -55,7 +55,7 @@ fn a_walk_changes_depth_rarely_and_texels_never() {
     let lens = Lens { fov_y: 1.0, aspect: 1.6, near: 0.1, far: 100.0, orthographic: false };
     let settings = Settings::default().with_warp(Warp::Stable).with_origin(Origin::Eye);
     let light = Light::directional((0.4, 1.0, 0.2)).expect("sound");
-    let maps: Vec<(Map, DVec3)> = (0..100)
+    let maps: Vec<(ShadowMap, DVec3)> = (0..100)
         .map(|frame| {
             let frame = f64::from(frame);
             let turn = DQuat::from_rotation_y(0.01 * frame) * DQuat::from_rotation_x(-0.1);
@@ -67,7 +67,7 @@ fn a_walk_changes_depth_rarely_and_texels_never() {
         .collect();
     let (first, first_eye) = &maps[0];
     let at = middle + DVec3::new(3.0, 0.0, -20.0);
-    let in_f32 = |map: &Map, eye: DVec3| texels_in_f32(map, (at - eye).as_vec3());
+    let in_f32 = |map: &ShadowMap, eye: DVec3| texels_in_f32(map, (at - eye).as_vec3());
     for (map, eye) in &maps {
         assert_eq!(sides(map), sides(first));
         // A row's terms are 3·10⁷ texels, with four roundings of 2⁻⁵² in either map.

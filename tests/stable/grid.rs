@@ -7,7 +7,7 @@ use crate::cameras::{
 };
 use glam::{DMat4, DQuat, DVec2, DVec3, DVec4};
 use proptest::prelude::*;
-use shadowfit::{ClipSpace, Focus, Light, Map, Origin, Settings, View, Warp, fit};
+use shadowfit::{ClipSpace, Focus, Light, Origin, Settings, ShadowMap, View, Warp, fit};
 use std::cell::Cell;
 
 /// Texels have the same sides to the bit, axes the same direction to the bit, and the grids of two views lie on one another.
@@ -29,7 +29,7 @@ fn cameras_that_move_and_turn_keep_extent_and_grid() {
         });
         let [Some(one), Some(other)] = maps else { return };
         counted.set(counted.get() + 1);
-        assert_eq!([one.refusal(), other.refusal()], [None; 2]);
+        assert_eq!([one.fallback(), other.fallback()], [None; 2]);
         let size = arbitrary::sides(&settings);
         let inner = size - 2.0 * f64::from(settings.border()) - 1.0;
         let room = (1.0 + 1.0 / 128.0) * (1.0 + 1.0 / 4096.0) * (1.0 + 1e-12);
@@ -62,8 +62,8 @@ fn points_stay_where_they_are_in_their_texels() {
             let views = poses.map(|pose| lens.view(middle, &pose));
             let [one, other] = views.map(|view| fit(&view, &light, scene, &settings).map().copied());
             let (Some(one), Some(other)) = (one, other) else { return };
-            for point in points_of(&Focus::new(&views[0], &light, scene).visible(), seed) {
-                let terms = |map: &Map| {
+            for point in points_of(&Focus::new(&views[0], &light, scene).receiver_volume(), seed) {
+                let terms = |map: &ShadowMap| {
                     let rows = rows(map);
                     let terms = |row: DVec4| row.truncate().abs().dot(point.abs()) + row.w.abs();
                     terms(rows.x_axis).max(terms(rows.y_axis)) + 1.0
@@ -97,7 +97,7 @@ fn points_stay_where_they_are_in_f32_about_the_eye() {
             let views = poses.map(|pose| lens.view(middle, &pose));
             let [one, other] = views.map(|view| fit(&view, &light, scene, &settings).map().copied());
             let (Some(one), Some(other)) = (one, other) else { return };
-            let bodies = views.map(|view| Focus::new(&view, &light, scene).visible());
+            let bodies = views.map(|view| Focus::new(&view, &light, scene).receiver_volume());
             for ((map, view), body) in [&one, &other].into_iter().zip(&views).zip(&bodies) {
                 let distances = body.vertices().iter().map(|vertex| (vertex - view.eye()).abs().max_element());
                 let (d, root) = (distances.fold(0.0, f64::max), 3.0_f64.sqrt());
@@ -151,7 +151,7 @@ fn points_stay_where_they_are_in_f32_about_the_origin() {
                 other_steps.set(other_steps.get() + 1);
                 return;
             }
-            let bodies = views.map(|view| Focus::new(&view, &light, scene).visible());
+            let bodies = views.map(|view| Focus::new(&view, &light, scene).receiver_volume());
             for point in points_of(&bodies[0], seed) {
                 if !bodies[1].contains(point) {
                     continue;
@@ -187,7 +187,7 @@ fn texels_grow_by_powers_of_two() {
     );
     // A line of the coarse grid, half of its map's texels to the side of its middle, is a line of the fine one. The map's
     // texels are at most 10⁸ from the origin, with a few roundings of 2⁻⁵².
-    let lines = |map: &Map| {
+    let lines = |map: &ShadowMap| {
         let rows = rows(map);
         DVec2::new(rows.x_axis.w, rows.y_axis.w) * 1024.0 * sides(map) / sides(&about_eye)
     };

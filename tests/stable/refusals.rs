@@ -1,7 +1,7 @@
 //! What no stable map is for.
 
 use glam::DVec3;
-use shadowfit::{Aabb, CubeFace, Light, Outcome, Refusal, Scene, Settings, View, Warp, fit};
+use shadowfit::{Aabb, Light, Outcome, Scene, Settings, View, Warp, WarpFallback, fit, omni::CubeFace};
 
 /// Lights and views that no stable map is for have the uniform one, and say why.
 #[test]
@@ -23,20 +23,20 @@ fn refusals() {
         (sun, bounds, 100.0, None),
         (sun, bounds, f64::INFINITY, None),
         (sun, lists, 100.0, None),
-        (sun, lists, f64::INFINITY, Some(Refusal::Endless)),
-        (point, bounds, 100.0, Some(Refusal::NoRegion)),
-        (hemisphere, bounds, 100.0, Some(Refusal::NoRegion)),
+        (sun, lists, f64::INFINITY, Some(WarpFallback::Endless)),
+        (point, bounds, 100.0, Some(WarpFallback::NoRegion)),
+        (hemisphere, bounds, 100.0, Some(WarpFallback::NoRegion)),
         (spot(0.8), bounds, f64::INFINITY, None),
         (spot(0.8), lists, f64::INFINITY, None),
-        (spot(1.5705), bounds, 100.0, Some(Refusal::NoRegion)),
+        (spot(1.5705), bounds, 100.0, Some(WarpFallback::NoRegion)),
         (face, bounds, f64::INFINITY, None),
     ];
     for (light, scene, far, refusal) in cases {
         let map = |warp| *fit(&view(far), &light, &scene, &settings.with_warp(warp)).map().expect("one map does");
         let (stable, uniform) = (map(Warp::Stable), map(Warp::Uniform));
-        assert_eq!(stable.refusal(), refusal, "{light:?}, far {far}");
-        assert_eq!(uniform.refusal(), None);
-        assert_eq!(stable.matrix() == uniform.matrix(), refusal.is_some(), "{light:?}, far {far}");
+        assert_eq!(stable.fallback(), refusal, "{light:?}, far {far}");
+        assert_eq!(uniform.fallback(), None);
+        assert_eq!(stable.caster_matrix() == uniform.caster_matrix(), refusal.is_some(), "{light:?}, far {far}");
         assert_eq!([stable.warp_ratio(), stable.weakening()], [1.0; 2]);
     }
 }

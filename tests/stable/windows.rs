@@ -4,7 +4,7 @@ use crate::arbitrary::{self, Together, case, points_of, run, settings};
 use crate::cameras::{Form, Lens, lens, middle, rows, sides, stable, texels, two_poses};
 use glam::DVec3;
 use proptest::prelude::*;
-use shadowfit::{CubeFace, Light, Origin, Scene, Settings, View, Warp, fit};
+use shadowfit::{Light, Origin, Scene, Settings, View, Warp, fit, omni::CubeFace};
 use std::cell::Cell;
 
 /// The window that what is visible needs is inside of the one that is there, in every case: no slack is left to roundings of
@@ -17,12 +17,12 @@ fn the_window_holds_what_is_visible() {
         let [map, uniform] = [Warp::Stable, Warp::Uniform].map(|warp| focus.fit(&settings.with_warp(warp)));
         let (Some(map), Some(uniform)) = (map.map().copied(), uniform.map().copied()) else { return };
         let size = arbitrary::sides(&settings);
-        if map.refusal().is_some() {
-            assert_eq!(map.matrix(), uniform.matrix());
+        if map.fallback().is_some() {
+            assert_eq!(map.caster_matrix(), uniform.caster_matrix());
             return;
         }
         let border = f64::from(settings.border());
-        for point in points_of(&focus.visible(), seed) {
+        for point in points_of(&focus.receiver_volume(), seed) {
             // Where f32 may put a point anywhere, nothing is promised of it.
             if !together.is_served(point) || map.place_rounding(point) > 0.25 * size.min_element() {
                 continue;
@@ -93,7 +93,7 @@ fn lamps_with_a_frustum_of_their_own_have_one_window() {
                     poses.map(|pose| fit(&lens.view(middle, &pose), &light, scene, &settings).map().copied());
                 let [Some(one), Some(other)] = maps else { return };
                 counted.set(counted.get() + 1);
-                assert_eq!([one.refusal(), other.refusal()], [None; 2]);
+                assert_eq!([one.fallback(), other.fallback()], [None; 2]);
                 let [a, b] = [&one, &other].map(|map| {
                     let rows = rows(map);
                     [rows.x_axis, rows.y_axis, rows.w_axis]

@@ -2,7 +2,7 @@
 //! a point light. What the tests compile is what a crate writes that has shadowfit beside the library, whatever version of
 //! it.
 
-use shadowfit::{ClipSpace, Focus, InputError, Light, Map, Outcome, Scene, Settings, View};
+use shadowfit::{ClipSpace, Focus, InputError, Light, Outcome, Scene, Settings, ShadowMap, View};
 
 /// The eye.
 pub const EYE: [f64; 3] = [0.0, 2.0, 9.0];
@@ -49,7 +49,7 @@ pub fn single(matrix: [[f64; 4]; 4]) -> [[f32; 4]; 4] {
 ///
 /// Never: all of it is sound.
 #[must_use]
-pub fn map() -> Map {
+pub fn map() -> ShadowMap {
     let sound = "plain numbers";
     let (view, sun) = (view().expect(sound), Light::directional(SUN).expect(sound));
     let scene = Scene::from_box((-5.0, 0.0, -5.0), (5.0, 3.0, 5.0)).expect(sound);
@@ -62,5 +62,5 @@ pub fn map() -> Map {
 /// The place in the map of a point of the scene, by the matrix that is uploaded.
 #[must_use]
 pub fn place([x, y, z]: [f32; 3]) -> [f32; 4] {
-    map().matrix().mul_vec4(shadowfit::glam::Vec4::new(x, y, z, 1.0)).to_array()
+    map().caster_matrix().mul_vec4(shadowfit::glam::Vec4::new(x, y, z, 1.0)).to_array()
 }

@@ -25,7 +25,7 @@ fn both_precisions() {
 
 #[test]
 fn results() {
-    let matrix: [[f32; 4]; 4] = interop::map().matrix().to_cols_array_2d();
-    let flat: [f32; 16] = interop::map().matrix().to_cols_array();
+    let matrix: [[f32; 4]; 4] = interop::map().caster_matrix().to_cols_array_2d();
+    let flat: [f32; 16] = interop::map().caster_matrix().to_cols_array();
     assert_eq!(matrix.as_flattened(), flat);
 }

@@ -17,7 +17,7 @@ fn there() {
 
 #[test]
 fn and_back() {
-    let matrix = Matrix4::from(map().matrix().to_cols_array_2d());
+    let matrix = Matrix4::from(map().caster_matrix().to_cols_array_2d());
     let clip: [f32; 4] = (matrix * Vector4::new(1.0, 0.5, -1.0, 1.0)).into();
     for (theirs, ours) in clip.into_iter().zip(place([1.0, 0.5, -1.0])) {
         assert!((theirs - ours).abs() <= 1e-6, "{theirs}, {ours}");

@@ -19,6 +19,6 @@ fn there() {
 
 #[test]
 fn and_back() {
-    let matrix = Mat4::from_cols_array_2d(&map().matrix().to_cols_array_2d());
+    let matrix = Mat4::from_cols_array_2d(&map().caster_matrix().to_cols_array_2d());
     assert_eq!((matrix * Vec3::new(1.0, 0.5, -1.0).extend(1.0)).to_array(), place([1.0, 0.5, -1.0]));
 }

@@ -17,8 +17,8 @@ fn there() {
 
 #[test]
 fn and_back() {
-    let matrix = ColumnMatrix4::from(map().matrix().to_cols_array_2d());
-    assert_eq!([matrix.x.w, matrix.y.w, matrix.z.w, matrix.w.w], map().matrix().row(3).to_array());
+    let matrix = ColumnMatrix4::from(map().caster_matrix().to_cols_array_2d());
+    assert_eq!([matrix.x.w, matrix.y.w, matrix.z.w, matrix.w.w], map().caster_matrix().row(3).to_array());
     let point: Point3<f64> = map().camera().eye.to_array().into();
     assert!(point.x.is_finite());
 }

@@ -4,7 +4,7 @@ use anyhow::Result;
 use render_check::gpu::Filter;
 use render_check::technique::Technique;
 use serde::Serialize;
-use shadowfit::{Budget, Settings};
+use shadowfit::{Settings, plan::Budget};
 
 use crate::chapter::{Chapter, Figure, Part, Raw, Table, percent};
 use crate::front::front;
@@ -247,8 +247,8 @@ fn filter(measured: &Measured) -> Option<Advice> {
         .collect::<Vec<_>>();
     let default = match Budget::new(Settings::default()).filter() {
         shadowfit::Filter::Nearest => Filter::Nearest,
-        shadowfit::Filter::Hardware => Filter::Hardware,
-        shadowfit::Filter::PercentageCloser(taps) => Filter::PercentageCloser(taps.into()),
+        shadowfit::Filter::Hardware2x2 => Filter::Hardware2x2,
+        shadowfit::Filter::Pcf(taps) => Filter::Pcf(taps.into()),
     };
     Some(Advice {
         setting: "Filter",

@@ -7,7 +7,7 @@ use super::measure::{Comparison, Errors, Ours, figure};
 use super::setup::{Lamp, Setup};
 use super::textbook::{is_beside_the_cube, textbook};
 use shadowfit::glam::DVec3;
-use shadowfit::{ClipSpace, Map};
+use shadowfit::{ClipSpace, ShadowMap};
 
 /// A number that f32 holds.
 pub(crate) fn in_f32(value: f64) -> f64 {
@@ -120,8 +120,8 @@ pub(crate) fn caster_through_the_camera_plane() -> Table {
     let matrices: [M4<Big>; 4] = [
         exactly(&textbook::<f32>(&setup)),
         exactly(&textbook::<f64>(&setup)),
-        exactly(&rows_of(&map.shadow_from_world_in(ClipSpace::WGPU))),
-        exactly(&rows_of(&map.matrix().as_dmat4())),
+        exactly(&rows_of(&map.clip_from_world_in(ClipSpace::WGPU))),
+        exactly(&rows_of(&map.caster_matrix().as_dmat4())),
     ]
     .map(|matrix| matrix.expect("nothing is degenerate but the caster"));
     let receiver = DVec3::new(0.0, -1.0, -4.0);
@@ -163,7 +163,7 @@ pub(crate) fn lamp_far_away() -> Table {
     table.columns.push("ours, from the sun's");
     let direction = DVec3::new(in_f32(0.6), in_f32(0.75), in_f32(-0.25));
     let sun = Setup::outdoors(Lamp::Sun(direction));
-    let place = |map: &Map, p: DVec3| map.shadow_from_world_in(ClipSpace::WGPU).project_point3(p);
+    let place = |map: &ShadowMap, p: DVec3| map.clip_from_world_in(ClipSpace::WGPU).project_point3(p);
     // From beyond the scene on, the same f32 direction times a power of two.
     for k in 3..=9 {
         let distance = 2_f64.powf((10_f64.powi(k)).log2().round());

@@ -6,7 +6,7 @@ use super::ours::ours;
 use super::setup::Setup;
 use super::textbook::textbook;
 use shadowfit::glam::{DMat4, DVec3};
-use shadowfit::{ClipSpace, Map, Origin};
+use shadowfit::{ClipSpace, Origin, ShadowMap};
 
 /// Half of a unit in the last place.
 const F32: f64 = 1.0 / 16_777_216.0;
@@ -66,14 +66,14 @@ impl Ours {
 }
 
 /// Our f64 matrix, for positions relative to the origin.
-fn of_map(map: &Map, setup: &Setup) -> M4<Big> {
-    let rows = rows_of(&map.shadow_from_world_in(ClipSpace::WGPU));
+fn of_map(map: &ShadowMap, setup: &Setup) -> M4<Big> {
+    let rows = rows_of(&map.clip_from_world_in(ClipSpace::WGPU));
     about_origin(setup, &exactly(&rows).expect("our matrices are finite"))
 }
 
 /// What a renderer uploads.
-fn of_upload(map: &Map) -> M4<Big> {
-    let matrix: DMat4 = map.matrix().as_dmat4();
+fn of_upload(map: &ShadowMap) -> M4<Big> {
+    let matrix: DMat4 = map.caster_matrix().as_dmat4();
     exactly(&rows_of(&matrix)).expect("our matrices are finite")
 }
 
@@ -146,8 +146,8 @@ impl Points<'_> {
 /// An entry of the f32 matrix is off by half of a unit in its last place; after the division a coordinate v by no more than
 /// `u (Σ|row · X| + |v| Σ|w · X|) / w`. Rows of the f64 matrix are sums of covectors through the light, the eye and what
 /// is visible: [`ROUNDINGS`] of terms as large as its normal times those.
-fn bounds(setup: &Setup, map: &Map, receivers: &[DVec3]) -> [f64; 2] {
-    let matrix = map.shadow_from_world_in(ClipSpace::WGPU);
+fn bounds(setup: &Setup, map: &ShadowMap, receivers: &[DVec3]) -> [f64; 2] {
+    let matrix = map.clip_from_world_in(ClipSpace::WGPU);
     let origin = origin(setup);
     let light = map_light(setup);
     let reach = setup.camera.eye.abs() + light + setup.visible().iter().fold(DVec3::ZERO, |r, p| r.max(p.abs()));

@@ -8,14 +8,14 @@
 use super::arithmetic::{Big, Real};
 use super::linear::{M4, V3, V4, add, at, cross, dot, length, one, sub, through, times, unit, vector};
 use super::setup::{Frame, Lamp, Setup};
-use shadowfit::Map;
+use shadowfit::ShadowMap;
 
 fn big(value: f64) -> Big {
     Big::of(value)
 }
 
 /// World to clip space, z from 0 to 1.
-pub(crate) fn ours(setup: &Setup, map: &Map) -> M4<Big> {
+pub(crate) fn ours(setup: &Setup, map: &ShadowMap) -> M4<Big> {
     let frame = setup.camera.frame::<Big>();
     let visible: Vec<V3<Big>> = setup.visible().into_iter().map(vector).collect();
     let chart = Chart::new(setup, &frame, &visible);

@@ -4,7 +4,7 @@
 use super::arithmetic::Real;
 use super::linear::{V3, V4, cross, dot, through, times, unit, vector};
 use shadowfit::glam::DVec3;
-use shadowfit::{Focus, Light, Map, Origin, Scene, Settings, Shift, View, Warp};
+use shadowfit::{Focus, Light, Origin, Scene, Settings, ShadowMap, View, Warp, warp::Shift};
 
 /// A symmetric perspective camera.
 #[derive(Clone, Copy, Debug)]
@@ -110,7 +110,7 @@ impl Setup {
         Scene::from_box(self.min, self.max).expect("a legal scene")
     }
 
-    pub(crate) fn map(&self) -> Map {
+    pub(crate) fn map(&self) -> ShadowMap {
         *Focus::new(&self.camera.view(), &self.lamp.light(), &self.scene())
             .fit(&self.settings())
             .map()
@@ -119,7 +119,7 @@ impl Setup {
 
     /// The vertices of R.
     pub(crate) fn visible(&self) -> Vec<DVec3> {
-        Focus::new(&self.camera.view(), &self.lamp.light(), &self.scene()).visible().vertices().to_vec()
+        Focus::new(&self.camera.view(), &self.lamp.light(), &self.scene()).receiver_volume().vertices().to_vec()
     }
 
     /// Test points: the vertices of R, the middle of it, and points between.

@@ -8,7 +8,7 @@ use super::linear::{V4, homogeneous};
 use super::measure::figure;
 use super::setup::{Lamp, Setup};
 use shadowfit::glam::DVec3;
-use shadowfit::{Focus, Form, Plane};
+use shadowfit::{Focus, FocusForm, focus::Plane};
 
 /// The absolute epsilon of the naive construction.
 const EPSILON: f64 = 1e-6;
@@ -32,7 +32,7 @@ fn compare(table: &mut Table, name: &str, setup: &Setup) {
     planes.extend(exact(&light.planes()));
     let body = vertices(&planes);
     let size = (setup.max - setup.min).max_element();
-    let ours = Focus::new(&view, &light, &scene).body(Form::Paper).vertices().to_vec();
+    let ours = Focus::new(&view, &light, &scene).caster_volume(FocusForm::ViewHull).vertices().to_vec();
     let bodies = [naive::<f32>(&planes, EPSILON), naive::<f64>(&planes, EPSILON), ours];
     let differences = bodies.map(|other| Difference::new(&body, &planes, &other));
     let cell = |distance: f64| if distance.is_infinite() { "all".into() } else { figure(distance / size) };

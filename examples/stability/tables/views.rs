@@ -6,7 +6,7 @@ use super::measure::figure;
 use super::setup::{Lamp, Setup};
 use super::textbook::textbook;
 use shadowfit::glam::{DMat4, DVec3, DVec4, Mat4, Vec4};
-use shadowfit::{ClipSpace, Focus, Form, Origin, Scene, Settings, View, Warp};
+use shadowfit::{ClipSpace, Focus, FocusForm, Origin, Scene, Settings, View, Warp};
 
 const COLUMNS: [&str; 4] = ["textbook f32", "textbook f64", "ours f64", "ours f32 upload"];
 
@@ -98,11 +98,11 @@ pub(crate) fn one_camera_in_every_convention() -> Table {
             let focus = Focus::new(view, &light, &scene);
             let of_far = if far.is_finite() { (view.far() / all[0].1.far() - 1.0).abs() } else { 0.0 };
             let range = ((view.near() / near - 1.0).abs()).max(of_far);
-            let [(min, max), (first_min, first_max)] =
-                [&focus, &first].map(|focus| focus.body(Form::Paper).bounds().expect("something is in view"));
+            let [(min, max), (first_min, first_max)] = [&focus, &first]
+                .map(|focus| focus.caster_volume(FocusForm::ViewHull).bounds().expect("something is in view"));
             let off = (min - first_min).abs().max((max - first_max).abs()).max_element() / 60.0;
-            let [ours, theirs] = [map(&focus), map(&first)].map(|map| map.shadow_from_world_in(ClipSpace::WGPU));
-            let visible = first.visible();
+            let [ours, theirs] = [map(&focus), map(&first)].map(|map| map.clip_from_world_in(ClipSpace::WGPU));
+            let visible = first.receiver_volume();
             let apart = visible.vertices().iter().map(|&p| {
                 let places = [ours, theirs].map(|matrix| matrix.project_point3(p));
                 // A mirrored image may be mirrored in the map.
@@ -146,7 +146,7 @@ pub(crate) fn positions_in_f32() -> Table {
                 Some(origin) => {
                     let setup = Setup { origin, ..setup };
                     let about = if origin == Origin::Eye { setup.camera.eye } else { DVec3::ZERO };
-                    (setup.map().matrix(), about)
+                    (setup.map().caster_matrix(), about)
                 }
             };
             let beyond = corners.iter().map(|&p| {

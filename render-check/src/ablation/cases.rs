@@ -1,7 +1,7 @@
 //! The cases: a light before a built-in scene for each effect, where a plan leaves it out and where it asks for it.
 
 use anyhow::{Context, Result};
-use shadowfit::{Budget, Filter, Origin, Settings, View, Warp};
+use shadowfit::{Filter, Origin, Settings, View, Warp, plan::Budget};
 
 use super::effect::Effect;
 use crate::light::LightSpec;
@@ -26,7 +26,7 @@ pub struct Case {
 
 impl Case {
     const fn new(effect: Effect, is_asked_for: bool, scene: &'static str, light: &'static str, size: u32) -> Self {
-        Self { effect, is_asked_for, scene, light, size, filter: Filter::Hardware }
+        Self { effect, is_asked_for, scene, light, size, filter: Filter::Hardware2x2 }
     }
 
     const fn filtered(self, filter: Filter) -> Self {
@@ -54,7 +54,7 @@ impl Case {
     }
 }
 
-const WIDE: Filter = Filter::PercentageCloser(5);
+const WIDE: Filter = Filter::Pcf(5);
 
 /// All of them, effect by effect: first where it is left out, then where it is asked for.
 pub const CASES: [Case; 22] = [

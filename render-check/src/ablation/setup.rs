@@ -4,8 +4,11 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
 use shadowfit::{
-    Aabb, Budget, CubeFace, DepthTest, Focus, Form, Kind, Light, LightPlan, Objects, Origin, Outcome, Plan, Scene,
-    Settings, Shift, View, Warp, plan,
+    Aabb, Focus, FocusForm, Light, Origin, Outcome, Scene, Settings, View, Warp,
+    depth::DepthTest,
+    omni::CubeFace,
+    plan::{Budget, Kind, LightPlan, Objects, Plan, plan},
+    warp::Shift,
 };
 
 use crate::cut::Cutting;
@@ -190,9 +193,9 @@ impl<'a> Setup<'a> {
             Outcome::Empty(_) => return Ok(None),
             Outcome::Surrounded(_) => bail!("no single frustum serves {}", self.light.spec),
         };
-        let body = focus.body(Form::Tight);
+        let body = focus.caster_volume(FocusForm::ReceiverHull);
         let boxes = self.boxes.iter().enumerate();
-        let meets = boxes.filter(|(_, one)| body.meets_box(one.min.as_dvec3(), one.max.as_dvec3()));
+        let meets = boxes.filter(|(_, one)| body.intersects_aabb(one.min.as_dvec3(), one.max.as_dvec3()));
         let objects = meets.map(|(object, _)| object).collect();
         Ok(Some(FittedMap { map, pass: options.pass(&map)?, objects }))
     }
@@ -223,6 +226,6 @@ impl<'a> Setup<'a> {
 
     /// The other back-shift.
     pub(super) fn other_shift(shift: Shift) -> Shift {
-        if shift == Shift::None { Shift::Back(Form::Paper) } else { Shift::None }
+        if shift == Shift::None { Shift::Back(FocusForm::ViewHull) } else { Shift::None }
     }
 }

@@ -1,7 +1,12 @@
 //! An effect, with and without: which of the two the plan chose, and what the other would have been.
 
 use anyhow::{Result, ensure};
-use shadowfit::{DepthTest, Kind, Reason, Shift, Warp};
+use shadowfit::{
+    Warp,
+    depth::DepthTest,
+    plan::{Kind, Reason},
+    warp::Shift,
+};
 
 use super::effect::Effect;
 use super::setup::{Maps, Setup};

@@ -1,7 +1,7 @@
 //! The nearest and the farthest of what a camera sees, from its depth buffer.
 
 use anyhow::Result;
-use shadowfit::{DepthRange, View};
+use shadowfit::{View, input::DepthRange};
 use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
 
 use super::{Gpu, Surfaces, read_back, shaders};

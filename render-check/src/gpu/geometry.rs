@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use anyhow::{Result, ensure};
-use shadowfit::Solidity;
 use shadowfit::glam::DVec3;
+use shadowfit::mesh::Solidity;
 use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
 
 use super::Gpu;

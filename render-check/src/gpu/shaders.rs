@@ -72,7 +72,7 @@ fn shadow_test(layout: LayoutText, lookup: &str) -> String {
     };
     let own = [include_str!("shaders/full_screen.wgsl"), include_str!("shaders/shadow_test.wgsl"), layout, lookup];
     let functions =
-        [functions, wgsl::SLICES, wgsl::MAP_ARRAY, wgsl::FILTERS, wgsl::VIRTUAL_SAMPLES, wgsl::BETWEEN_LAYERS];
+        [functions, wgsl::CASCADES, wgsl::MAP_ARRAY, wgsl::FILTERS, wgsl::VIRTUAL_SAMPLES, wgsl::BETWEEN_LAYERS];
     functions.into_iter().chain(own).collect()
 }
 

@@ -5,7 +5,12 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, bail, ensure};
 use shadowfit::glam::{DVec3, Mat4, Vec2, Vec3, Vec4};
-use shadowfit::{ClipSpace, Culling, DepthFormat, DepthRange, Offset, Paraboloid, YAxis};
+use shadowfit::{
+    ClipSpace, DepthFormat,
+    depth::{Culling, ReceiverOffset},
+    input::{DepthRange, YAxis},
+    omni::Paraboloid,
+};
 
 use super::pass::{Pass, PipelineKind, depth_state};
 use super::splats::{Points, SplatPass};
@@ -29,8 +34,8 @@ impl Bias {
 
     /// What a map asks for, as a bias away from the light: the sign of its clip space is put on again where it is drawn.
     #[must_use]
-    pub const fn away(bias: &shadowfit::DepthBias) -> Self {
-        Self { constant: bias.constant.abs(), slope: bias.slope.abs() }
+    pub const fn away(bias: &shadowfit::depth::DepthBias) -> Self {
+        Self { constant: bias.constant.abs(), slope: bias.slope_scale.abs() }
     }
 }
 
@@ -46,7 +51,7 @@ pub struct MapPass {
     pub bias: Bias,
     /// What receivers are tested nearer to the light by, where the map's depth range is 1.
     pub receiver: f64,
-    /// And as a part, see [`Offset::relative`].
+    /// And as a part, see [`ReceiverOffset::relative`].
     pub relative: f64,
     /// What is drawn for points. Splats and texels have no sides.
     pub points: Points,
@@ -77,7 +82,7 @@ pub struct ShadowMaps {
     /// What lies behind the first surfaces, of a light whose maps are tested between layers.
     pub(super) behind: Option<LayerArray>,
     /// The map in each layer, and what receivers are to be tested with.
-    pub(super) maps: Vec<(Layout, Offset)>,
+    pub(super) maps: Vec<(Layout, ReceiverOffset)>,
     pub(super) format: DepthFormat,
     texture_format: wgpu::TextureFormat,
     /// `Split` of `shadow_test.wgsl`, row by row.
@@ -119,7 +124,8 @@ impl ShadowMaps {
             let array = || LayerArray::new(gpu, size, drawn.len() as u32, format);
             let (nearest, behind) = (array(), (first.pass.faces == Faces::Layers).then(array));
             let receiver = |draw: &MapDraw<'_>| {
-                let offset = Offset::relative(draw.pass.relative).and_then(|it| it.and_depth(draw.pass.receiver));
+                let offset =
+                    ReceiverOffset::relative(draw.pass.relative).and_then(|it| it.and_depth(draw.pass.receiver));
                 let offset = offset.context("receivers cannot be moved so")?;
                 Ok((draw.map, offset))
             };
@@ -238,10 +244,10 @@ fn draw_layer(
                 slope_scale: sign as f32 * draw.pass.bias.slope,
                 clamp: 0.0,
             };
-            (shaders::SHADOW_MAP.into(), gpu.uniforms(&[map.matrix(), raster_from_clip]), bias)
+            (shaders::SHADOW_MAP.into(), gpu.uniforms(&[map.caster_matrix(), raster_from_clip]), bias)
         }
         Layout::Paraboloid(map) => {
-            let light = gpu.uniforms(&[map.matrix(), raster_from_clip, in_fragments(map, &draw.pass)]);
+            let light = gpu.uniforms(&[map.caster_matrix(), raster_from_clip, in_fragments(map, &draw.pass)]);
             (shaders::paraboloid_map(), light, wgpu::DepthBiasState::default())
         }
     };

@@ -6,7 +6,11 @@ use std::time::Duration;
 
 use anyhow::{Result, bail};
 use shadowfit::glam::{Mat4, Vec3};
-use shadowfit::{ClipSpace, Offset, TextureOrigin, YAxis};
+use shadowfit::{
+    ClipSpace,
+    depth::ReceiverOffset,
+    input::{TextureOrigin, YAxis},
+};
 
 use super::pass::{FULL_SCREEN, Pass, PipelineKind};
 use super::shaders::{self, LayoutText};
@@ -19,9 +23,9 @@ pub enum Filter {
     /// The one texel that a point lies in.
     Nearest,
     /// The four texels around it, compared and blended by the sampler.
-    Hardware,
+    Hardware2x2,
     /// The mean over so many texels across and down, each compared.
-    PercentageCloser(u32),
+    Pcf(u32),
     /// So many texels across and down, each compared with the depth of the surface's own plane at its middle; two are
     /// blended, of more it is the mean.
     Virtual(u32),
@@ -33,8 +37,8 @@ impl Filter {
     pub fn reach(self) -> f64 {
         match self {
             Self::Nearest => 0.5,
-            Self::Hardware => 1.0,
-            Self::PercentageCloser(taps) | Self::Virtual(taps) => 0.5 * f64::from(taps),
+            Self::Hardware2x2 => 1.0,
+            Self::Pcf(taps) | Self::Virtual(taps) => 0.5 * f64::from(taps),
         }
     }
 }
@@ -44,8 +48,8 @@ impl fmt::Display for Filter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Nearest => f.write_str("nearest"),
-            Self::Hardware => f.write_str("hardware"),
-            Self::PercentageCloser(taps) => write!(f, "pcf{taps}"),
+            Self::Hardware2x2 => f.write_str("hardware"),
+            Self::Pcf(taps) => write!(f, "pcf{taps}"),
             Self::Virtual(taps) => write!(f, "virtual{taps}"),
         }
     }
@@ -58,11 +62,11 @@ impl FromStr for Filter {
     fn from_str(text: &str) -> Result<Self, String> {
         match text {
             "nearest" => Ok(Self::Nearest),
-            "hardware" => Ok(Self::Hardware),
+            "hardware" => Ok(Self::Hardware2x2),
             _ => {
                 let taps = |word| text.strip_prefix(word).and_then(|taps| taps.parse().ok());
                 match (taps("pcf"), taps("virtual")) {
-                    (Some(taps @ 2..=15), _) => Ok(Self::PercentageCloser(taps)),
+                    (Some(taps @ 2..=15), _) => Ok(Self::Pcf(taps)),
                     (_, Some(taps @ 1..=15)) => Ok(Self::Virtual(taps)),
                     _ => {
                         Err("write nearest, hardware, pcfN with N from 2 to 15, or virtualN with N from 1 to 15"
@@ -116,22 +120,22 @@ fn shadow_test_unguarded(
     let behind = shadow_maps.behind.as_ref().map(|behind| &behind.all);
     let (shader, taps) = match (filter, behind) {
         (Filter::Nearest, None) => (shaders::nearest(layout), None),
-        (Filter::Hardware, None) => (shaders::hardware(layout), None),
-        (Filter::PercentageCloser(taps), None) => (shaders::percentage_closer(layout), Some(taps)),
+        (Filter::Hardware2x2, None) => (shaders::hardware(layout), None),
+        (Filter::Pcf(taps), None) => (shaders::percentage_closer(layout), Some(taps)),
         (Filter::Virtual(_), None) if layout == LayoutText::Paraboloid => {
             bail!("paraboloids have no virtual samples")
         }
         (Filter::Virtual(taps), None) => (shaders::virtual_samples(), Some(taps)),
         (Filter::Nearest, Some(_)) => (shaders::between_layers(), Some(1)),
-        (Filter::PercentageCloser(taps), Some(_)) => (shaders::between_layers(), Some(taps)),
-        (Filter::Hardware | Filter::Virtual(_), Some(_)) => {
+        (Filter::Pcf(taps), Some(_)) => (shaders::between_layers(), Some(taps)),
+        (Filter::Hardware2x2 | Filter::Virtual(_), Some(_)) => {
             bail!("the middle of two layers is read with nearest or pcfN, not with {filter}")
         }
     };
     let taps = taps.map(|taps| ("taps", f64::from(taps)));
     let mut constants = vec![];
     // The hardware's comparison is the sampler's own.
-    if filter != Filter::Hardware {
+    if filter != Filter::Hardware2x2 {
         constants.push(("reversed", f64::from(u8::from(reversed))));
     }
     constants.extend(taps);
@@ -167,8 +171,8 @@ fn shadow_test_unguarded(
     ];
     resources.extend(behind.map(wgpu::BindingResource::TextureView));
     match filter {
-        Filter::Nearest | Filter::PercentageCloser(_) => {}
-        Filter::Hardware => resources.push(wgpu::BindingResource::Sampler(&sampler)),
+        Filter::Nearest | Filter::Pcf(_) => {}
+        Filter::Hardware2x2 => resources.push(wgpu::BindingResource::Sampler(&sampler)),
         Filter::Virtual(_) => resources
             .extend([wgpu::BindingResource::TextureView(&surfaces.numbers), surfaces.normals.as_entire_binding()]),
     }
@@ -188,11 +192,11 @@ fn shadow_test_unguarded(
 }
 
 /// What the shader knows of a layer.
-fn layer(map: &Layout, receiver: &Offset, shadow_maps: &ShadowMaps, filter: Filter) -> Result<Vec<f32>> {
+fn layer(map: &Layout, receiver: &ReceiverOffset, shadow_maps: &ShadowMaps, filter: Filter) -> Result<Vec<f32>> {
     let sampled = sampled_from_texture(map.settings().clip());
     Ok(match map {
         Layout::Frustum(map) => {
-            let matrices = [map.texture_matrix_with(receiver), sampled];
+            let matrices = [map.receiver_matrix_with(receiver), sampled];
             let tolerance = map.comparison_tolerance(shadow_maps.format, filter.reach())?;
             matrices.iter().flat_map(Mat4::to_cols_array).chain(tolerance.to_array()).collect()
         }
@@ -200,7 +204,7 @@ fn layer(map: &Layout, receiver: &Offset, shadow_maps: &ShadowMaps, filter: Filt
             let mut scale = map.texture_scale();
             // The middle of the disc is the middle of the map, whichever row comes first.
             scale.y *= sampled.y_axis.y;
-            map.receiver_matrix(receiver).to_cols_array().into_iter().chain(scale.to_array()).collect()
+            map.receiver_matrix_with(receiver).to_cols_array().into_iter().chain(scale.to_array()).collect()
         }
     })
 }

@@ -2,8 +2,10 @@
 
 use shadowfit::glam::{DVec2, DVec3};
 use shadowfit::{
-    ClipSpace, DepthFormat, Focus, Light, Map, Origin, Paraboloid, Paraboloids, Rule, Scene, Settings,
-    TangentPlane, View, fit,
+    ClipSpace, DepthFormat, Focus, Light, Origin, Scene, Settings, ShadowMap, View,
+    depth::{Decision, TangentPlane},
+    fit,
+    omni::{Paraboloid, Paraboloids},
 };
 
 use super::*;
@@ -21,7 +23,7 @@ struct Stage {
     gpu: Gpu,
     mesh: Mesh,
     view: View,
-    map: Map,
+    map: ShadowMap,
 }
 
 /// The chess board under its sun.
@@ -72,7 +74,7 @@ fn every_format_holds_the_depths_that_rays_find_in_every_convention() {
     for clip in [ClipSpace::WGPU, ClipSpace::WGPU.reversed(), ClipSpace::VULKAN, ClipSpace::OPENGL.reversed()] {
         let stage = stage(clip);
         let tracer = Tracer::new(&stage.mesh).expect("it has triangles");
-        let lens = Lens::new(stage.map.shadow_from_world_in(ClipSpace::WGPU)).expect("invertible");
+        let lens = Lens::new(stage.map.clip_from_world_in(ClipSpace::WGPU)).expect("invertible");
         let cast = DepthMap::cast(&lens, MAP, &tracer).depths;
         for format in [DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32] {
             let (_, shadow_maps) = draw_all(&stage, format, Bias::NONE);
@@ -95,7 +97,7 @@ fn conventions_and_formats_make_no_difference_to_shadows() {
     };
     let shadowed = reference.iter().filter(|&&lit| lit < 0.5).count();
     assert!(shadowed * 20 > reference.len(), "{shadowed} of {} pixels in shadow", reference.len());
-    let opengl_y_down = ClipSpace { y: shadowfit::YAxis::Down, ..ClipSpace::OPENGL };
+    let opengl_y_down = ClipSpace { y: shadowfit::input::YAxis::Down, ..ClipSpace::OPENGL };
     for clip in [ClipSpace::WGPU, ClipSpace::VULKAN, ClipSpace::OPENGL, opengl_y_down] {
         for clip in [clip, clip.reversed()] {
             let stage = stage(clip);
@@ -120,7 +122,7 @@ fn a_wider_filter_blends_more() {
         lit.iter().filter(|&&lit| lit > 0.0 && lit < 1.0).count()
     };
     let [nearest, hardware, three, five] =
-        [Filter::Nearest, Filter::Hardware, Filter::PercentageCloser(3), Filter::PercentageCloser(5)].map(blended);
+        [Filter::Nearest, Filter::Hardware2x2, Filter::Pcf(3), Filter::Pcf(5)].map(blended);
     assert!(
         nearest == 0 && 0 < hardware && hardware < three && three < five,
         "{nearest} {hardware} {three} {five}"
@@ -198,7 +200,7 @@ fn virtual_samples_on_the_card_are_those_of_the_crate() {
                 };
                 let is_alike = (expected.share - f64::from(lit[i])).abs() < 0.01;
                 compared += 1;
-                same += usize::from(is_alike && used_plane[i] == (expected.rule == Rule::VirtualSamples));
+                same += usize::from(is_alike && used_plane[i] == (expected.rule == Decision::VirtualSamples));
                 of_plane += usize::from(used_plane[i]);
             }
             // Faces turned away from the light, whose planes it grazes, may go either way.
@@ -213,7 +215,7 @@ fn the_second_layer_is_the_next_surface_that_rays_meet() {
     for clip in [ClipSpace::WGPU, ClipSpace::VULKAN.reversed()] {
         let stage = stage(clip);
         let tracer = Tracer::new(&stage.mesh).expect("it has triangles");
-        let lens = Lens::new(stage.map.shadow_from_world_in(ClipSpace::WGPU)).expect("invertible");
+        let lens = Lens::new(stage.map.clip_from_world_in(ClipSpace::WGPU)).expect("invertible");
         let geometry = Geometry::upload(&stage.gpu, &stage.mesh, stage.view.eye()).expect("it fits");
         for format in [DepthFormat::Unorm16, DepthFormat::Unorm24, DepthFormat::Float32] {
             let (bias, points) = (Bias::NONE, Points::Discs);
@@ -265,11 +267,11 @@ fn what_cannot_be_tested_between_layers_is_refused() {
     let splats = maps(Points::Splats).err().expect("refused");
     assert!(format!("{splats:#}").contains("as discs"), "{splats:#}");
     let maps = maps(Points::Discs).expect("drawn");
-    for filter in [Filter::Hardware, Filter::Virtual(2)] {
+    for filter in [Filter::Hardware2x2, Filter::Virtual(2)] {
         let error = shadow_test(&stage.gpu, &surfaces, &maps, filter).err().expect("refused");
         assert!(format!("{error:#}").contains("nearest or pcfN"), "{error:#}");
     }
-    for filter in [Filter::Nearest, Filter::PercentageCloser(3)] {
+    for filter in [Filter::Nearest, Filter::Pcf(3)] {
         assert!(shadow_test(&stage.gpu, &surfaces, &maps, filter).is_ok());
     }
 }

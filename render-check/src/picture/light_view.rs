@@ -3,7 +3,7 @@
 use anyhow::Result;
 use image::{Rgb, RgbImage};
 use shadowfit::glam::{DVec2, DVec3};
-use shadowfit::{Body, View};
+use shadowfit::{View, focus::ConvexBody};
 
 use super::canvas::{Canvas, Sample, encode};
 use super::lens::Lens;
@@ -34,7 +34,7 @@ const OUTSIDE_BRIGHTNESS: f32 = 0.3;
 /// # Errors
 ///
 /// When there is nothing to look at.
-pub fn light_lens(light: &LightSpec, view: &View, body: &Body, mesh: &Mesh, aspect: f64) -> Result<Lens> {
+pub fn light_lens(light: &LightSpec, view: &View, body: &ConvexBody, mesh: &Mesh, aspect: f64) -> Result<Lens> {
     let (min, max) = mesh.bounds();
     let subject = if body.is_empty() { vec![min, max] } else { body.vertices().to_vec() };
     let axes_towards = |forward: DVec3| {
@@ -132,7 +132,13 @@ fn corners(min: DVec3, max: DVec3) -> [DVec3; 8] {
 
 /// Casts the light's picture through its lens and draws the camera's frustum and the focus body's edges over it.
 #[must_use]
-pub fn light_view(lens: &Lens, view: &View, tracer: &Tracer, body: &Body, [width, height]: [u32; 2]) -> RgbImage {
+pub fn light_view(
+    lens: &Lens,
+    view: &View,
+    tracer: &Tracer,
+    body: &ConvexBody,
+    [width, height]: [u32; 2],
+) -> RgbImage {
     let bar = progress::bar("the light's view", 0);
     // The outermost surfaces of a scene lie on the faces of its box, and so of H: a hair decides nothing there.
     let (min, max) = tracer.bounds();

@@ -60,7 +60,7 @@ mod tests {
         let (min, max) = mesh.bounds();
         let scene = Scene::from_box(min, max).expect("sound");
         let light = SUN.to_light(LAMP_NEAR).expect("sound");
-        let cuts = Slicing { count: 3, split: SplitArg(shadowfit::Split::Uniform) }.cuts(false);
+        let cuts = Slicing { count: 3, split: SplitArg(shadowfit::cascades::SplitScheme::Uniform) }.cuts(false);
         let split =
             Split::slices(cuts, slicing::slices(&fake::view(), &light, &scene, cuts).expect("a finite view"));
         let image = tinted(&grey, &truth, &split);

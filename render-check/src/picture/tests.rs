@@ -2,7 +2,7 @@
 
 use image::RgbImage;
 use shadowfit::glam::{DMat4, DVec2, DVec3};
-use shadowfit::{Focus, Form, Light, Scene, View};
+use shadowfit::{Focus, FocusForm, Light, Scene, View};
 
 use super::*;
 use crate::light::LightSpec;
@@ -27,10 +27,10 @@ fn view() -> View {
         .expect("a sound view")
 }
 
-fn body() -> shadowfit::Body {
+fn body() -> shadowfit::focus::ConvexBody {
     let scene = Scene::from_box(DVec3::new(-4.0, 0.0, -4.0), DVec3::new(4.0, 2.0, 4.0)).expect("a sound box");
     let light = Light::directional(DVec3::Y).expect("a sound light");
-    Focus::new(&view(), &light, &scene).body(Form::Paper)
+    Focus::new(&view(), &light, &scene).caster_volume(FocusForm::ViewHull)
 }
 
 /// The brightness of the pixel that shows a point, 0 to 255.

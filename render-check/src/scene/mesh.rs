@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::ops::Range;
 
 use shadowfit::glam::{DMat3, DMat4, DVec3, Vec3};
-use shadowfit::{MAX_COORDINATE, Solidity, Surface};
+use shadowfit::{input::MAX_COORDINATE, mesh::Solidity, plan::Surface};
 
 use super::LeftOut;
 use super::cloud::{self, Disc};

@@ -175,7 +175,7 @@ fn lights_inside() -> Result<Vec<Shot>> {
             .collect()
     })?;
     let mut options = own.options.clone();
-    for filter in [Filter::Nearest, Filter::PercentageCloser(5)] {
+    for filter in [Filter::Nearest, Filter::Pcf(5)] {
         options.extend(Technique::CUBES.map(|technique| Options { filter, ..Options::new(technique, MAP_SIZE) }));
     }
     Ok([own, across].map(|shot| shot.with_options(options.clone())).into())
@@ -184,7 +184,7 @@ fn lights_inside() -> Result<Vec<Shot>> {
 /// Lamps with one paraboloid and with two, cut as they must be; all that reads a map reads across the seam between two.
 fn paraboloids() -> Result<Vec<Shot>> {
     let mut options = Vec::new();
-    for filter in [Filter::Nearest, Filter::Hardware, Filter::PercentageCloser(5)] {
+    for filter in [Filter::Nearest, Filter::Hardware2x2, Filter::Pcf(5)] {
         let paraboloid = |map_size| Options { filter, ..Options::new(Technique::Paraboloid, map_size) };
         options.extend([paraboloid(MAP_SIZE), paraboloid(2 * MAP_SIZE)]);
     }
@@ -216,7 +216,7 @@ fn paraboloids() -> Result<Vec<Shot>> {
 
 /// Maps that stay put: suns, a spot, a lamp's faces, about the eye and in world space, at home and far from it.
 fn stable() -> Result<Vec<Shot>> {
-    let wide = Filter::PercentageCloser(5);
+    let wide = Filter::Pcf(5);
     let mut options = Vec::new();
     for technique in [Technique::Stable, Technique::CubeStable] {
         let plain = Options::new(technique, MAP_SIZE);
@@ -238,16 +238,16 @@ fn slices() -> Result<Vec<Shot>> {
     let mut options = Vec::new();
     for technique in [Technique::Uniform, Technique::Psm, Technique::Best, Technique::Stable] {
         for (count, split) in [
-            (2, shadowfit::Split::Uniform),
-            (3, shadowfit::Split::Blended(0.5)),
-            (5, shadowfit::Split::Logarithmic),
-            (8, shadowfit::Split::Logarithmic),
+            (2, shadowfit::cascades::SplitScheme::Uniform),
+            (3, shadowfit::cascades::SplitScheme::Practical(0.5)),
+            (5, shadowfit::cascades::SplitScheme::Logarithmic),
+            (8, shadowfit::cascades::SplitScheme::Logarithmic),
         ] {
             let slicing = Some(Slicing { count, split: SplitArg(split) });
             options.push(Options { slicing, ..Options::new(technique, MAP_SIZE / 2) });
         }
     }
-    let wide = Filter::PercentageCloser(5);
+    let wide = Filter::Pcf(5);
     options.push(Options { filter: wide, clip: ClipArg::VulkanReversed, ..options[3] });
     let shots = [lit_chess_board()?, Stand::built_in("street")?.own_lights("street")?];
     Ok(shots.map(|shot| shot.with_options(options.clone())).into())
@@ -328,8 +328,7 @@ fn sizes() -> Vec<Options> {
 fn filters() -> Vec<Options> {
     let mut all = Vec::new();
     for faces in [Faces::All, Faces::Front, Faces::Back] {
-        for filter in [Filter::Nearest, Filter::Hardware, Filter::PercentageCloser(3), Filter::PercentageCloser(5)]
-        {
+        for filter in [Filter::Nearest, Filter::Hardware2x2, Filter::Pcf(3), Filter::Pcf(5)] {
             all.extend(EXTREMES.map(|technique| Options { faces, filter, ..Options::new(technique, MAP_SIZE) }));
         }
     }

@@ -38,7 +38,7 @@ pub(super) fn far_off() -> Result<Vec<Shot>> {
     let mut options = [Technique::Uniform, Technique::Psm, Technique::Best, Technique::Cube]
         .map(|way| Options::new(way, MAP_SIZE))
         .to_vec();
-    options.push(Options { filter: Filter::PercentageCloser(3), ..options[0] });
+    options.push(Options { filter: Filter::Pcf(3), ..options[0] });
     let mut shots = Vec::new();
     for (words, distance) in [("1e6 mm", 1e6), ("1e9 mm", 1e9)] {
         // Whole numbers of the steps of f32 there, so that the way back is exact.

@@ -73,7 +73,7 @@ pub(super) fn through_the_back(view: &View) -> Vec<NamedLight> {
 
 #[cfg(test)]
 mod tests {
-    use shadowfit::{ClassKind, classify};
+    use shadowfit::warp::{ClassKind, classify};
 
     use super::*;
 

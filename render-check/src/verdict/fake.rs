@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use rayon::prelude::*;
 use shadowfit::glam::{DMat4, DVec3};
-use shadowfit::{Map, Scene, Settings, View, fit};
+use shadowfit::{Scene, Settings, ShadowMap, View, fit};
 
 use super::{Bias, DrawnMap, Frustum, Rendered, TruthImage, Verdict, judge};
 use crate::light::LightSpec;
@@ -112,7 +112,7 @@ pub(crate) fn settings() -> Settings {
     Settings::new(256, SIZE[1]).expect("sound sizes").with_border(4).expect("room for a border")
 }
 
-pub(crate) fn fitted(light: &LightSpec, settings: &Settings) -> Map {
+pub(crate) fn fitted(light: &LightSpec, settings: &Settings) -> ShadowMap {
     let (min, max) = mesh().bounds();
     let scene = Scene::from_box(min, max).expect("a sound box");
     let light = light.to_light(LAMP_NEAR).expect("a sound light");
@@ -159,7 +159,7 @@ impl Default for Fake {
 
 impl Fake {
     /// The map's depths as a renderer would hold them.
-    pub(crate) fn draw(&self, map: &Map, casters: &Tracer) -> Vec<f32> {
+    pub(crate) fn draw(&self, map: &ShadowMap, casters: &Tracer) -> Vec<f32> {
         let (lens, size) = (lens_of(map), map.settings().map_size());
         let is_reversed = map.settings().clip().depth.is_reversed();
         let texel = |x: u32, y: u32| {
@@ -175,7 +175,7 @@ impl Fake {
     }
 
     /// The share of the light in each pixel.
-    pub(crate) fn light(&self, map: &Map, depths: &[f32], truth: &TruthImage, mesh: &Mesh) -> Vec<f32> {
+    pub(crate) fn light(&self, map: &ShadowMap, depths: &[f32], truth: &TruthImage, mesh: &Mesh) -> Vec<f32> {
         let (lens, size) = (lens_of(map), map.settings().map_size());
         let is_reversed = map.settings().clip().depth.is_reversed();
         let stored = |x: i64, y: i64| {
@@ -202,7 +202,7 @@ impl Fake {
     /// Judges a map that was drawn and looked up like this.
     pub(crate) fn judge(
         &self,
-        map: &Map,
+        map: &ShadowMap,
         depths: &[f32],
         lit: &[f32],
         truth: &TruthImage,
@@ -226,12 +226,12 @@ impl Fake {
     }
 
     /// Draws `casters` into a map, lights the usual mesh by it and compares.
-    pub(crate) fn verdict(&self, light: &LightSpec, map: &Map, casters: &Mesh) -> Verdict {
+    pub(crate) fn verdict(&self, light: &LightSpec, map: &ShadowMap, casters: &Mesh) -> Verdict {
         self.verdict_on(&mesh(), light, map, casters)
     }
 
     /// The same with another mesh to light.
-    pub(crate) fn verdict_on(&self, mesh: &Mesh, light: &LightSpec, map: &Map, casters: &Mesh) -> Verdict {
+    pub(crate) fn verdict_on(&self, mesh: &Mesh, light: &LightSpec, map: &ShadowMap, casters: &Mesh) -> Verdict {
         let tracer = Tracer::new(mesh).expect("it has triangles");
         let truth = truth(light, &tracer);
         let depths = self.draw(map, &Tracer::new(casters).expect("it has triangles"));
@@ -240,8 +240,8 @@ impl Fake {
     }
 }
 
-fn lens_of(map: &Map) -> Lens {
-    Lens::new(map.shadow_from_world_in(shadowfit::ClipSpace::WGPU)).expect("invertible")
+fn lens_of(map: &ShadowMap) -> Lens {
+    Lens::new(map.clip_from_world_in(shadowfit::ClipSpace::WGPU)).expect("invertible")
 }
 
 /// How much the depth of the plane that was hit changes to the next column and to the next row.

@@ -1,7 +1,7 @@
 //! The projection of a map that is a frustum: one matrix.
 
 use shadowfit::glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
-use shadowfit::{ClipSpace, Map};
+use shadowfit::{ClipSpace, ShadowMap};
 
 use super::projection::Projection;
 
@@ -9,10 +9,10 @@ use super::projection::Projection;
 /// units in the last place for the products and their sum, and two for what is rounded after the division by w.
 const F32_ROUNDING: f64 = 8.0 / 16_777_216.0;
 
-/// The projection of a fitted [`Map`].
+/// The projection of a fitted [`ShadowMap`].
 #[derive(Clone, Copy, Debug)]
 pub struct Frustum {
-    map: Map,
+    map: ShadowMap,
     /// The rows of the matrix: x, y up, depth from 0 to 1, and w, each to be divided by w.
     x: DVec4,
     y: DVec4,
@@ -25,8 +25,8 @@ pub struct Frustum {
 impl Frustum {
     /// The projection of a map.
     #[must_use]
-    pub fn new(map: &Map) -> Self {
-        let clip_from_world = map.shadow_from_world_in(ClipSpace::WGPU);
+    pub fn new(map: &ShadowMap) -> Self {
+        let clip_from_world = map.clip_from_world_in(ClipSpace::WGPU);
         let [x, y, depth, w] = [0, 1, 2, 3].map(|i| clip_from_world.row(i));
         let origin = map.origin();
         Self { map: *map, x, y, depth, w, origin }
@@ -110,7 +110,7 @@ mod tests {
         for (light, warp) in [(SUN, Warp::Uniform), (SUN, Warp::Perspective), (LAMP, Warp::Perspective)] {
             let map = fake::fitted(&light, &fake::settings().with_warp(warp));
             let frustum = Frustum::new(&map);
-            let lens = Lens::new(map.shadow_from_world_in(ClipSpace::WGPU)).expect("invertible");
+            let lens = Lens::new(map.clip_from_world_in(ClipSpace::WGPU)).expect("invertible");
             let place = frustum.place(point).expect("in the map");
             let clip = lens.project(point);
             let expected = DVec3::new(128.0 * (1.0 + clip.x), 128.0 * (1.0 - clip.y), clip.z);
@@ -150,7 +150,7 @@ mod tests {
     fn rounding_covers_what_the_f32_matrix_does() {
         let map = fake::fitted(&LAMP, &fake::settings());
         let frustum = Frustum::new(&map);
-        let matrix = map.matrix();
+        let matrix = map.caster_matrix();
         for i in 0..1000 {
             let point =
                 DVec3::new(f64::from(i % 10) - 4.5, 0.13 * f64::from(i / 100), 0.7 - f64::from(i / 10 % 10)) * 0.77;

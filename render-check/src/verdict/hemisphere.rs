@@ -1,7 +1,7 @@
 //! The projection of a map that is a paraboloid.
 
-use shadowfit::Paraboloid;
 use shadowfit::glam::{DVec2, DVec3};
+use shadowfit::omni::Paraboloid;
 
 use super::projection::Projection;
 use crate::cut::BENT;

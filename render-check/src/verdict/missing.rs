@@ -153,7 +153,7 @@ mod tests {
         // From columns and rows beside the centre, and depth.
         let at = |column: f64, row: f64, depth: f64| {
             let clip = (centre + DVec2::new(column, row)) / 128.0 - 1.0;
-            map.shadow_from_world().inverse().project_point3(DVec3::new(clip.x, -clip.y, depth))
+            map.clip_from_world().inverse().project_point3(DVec3::new(clip.x, -clip.y, depth))
         };
         let (edge, above, below) = (0.002, 0.5, 0.6);
         let [first, second] = [at(edge, -10.0, above), at(edge, 10.0, above)];

@@ -42,7 +42,7 @@ pub trait Projection: fmt::Debug + Sync {
         0.0
     }
 
-    /// How much larger a texel is than a pixel at a point, see [`shadowfit::Map::aliasing`]; infinite outside of the map.
+    /// How much larger a texel is than a pixel at a point, see [`shadowfit::ShadowMap::aliasing`]; infinite outside of the map.
     fn aliasing(&self, point: DVec3) -> f64;
 
     /// The texel that holds a place, as an index into rows from the top; `None` outside of the map.

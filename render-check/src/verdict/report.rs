@@ -116,7 +116,7 @@ impl Counts {
     }
 }
 
-/// How much larger a texel is than a pixel, over the compared pixels: see [`shadowfit::Map::aliasing`]. Infinite outside
+/// How much larger a texel is than a pixel, over the compared pixels: see [`shadowfit::ShadowMap::aliasing`]. Infinite outside
 /// of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Aliasing {

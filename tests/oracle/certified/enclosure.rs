@@ -16,7 +16,7 @@
 use std::cmp::Ordering;
 
 use glam::DVec3;
-use shadowfit::Plane;
+use shadowfit::focus::Plane;
 
 use super::precise::admits;
 use crate::loss::Shape;

@@ -16,7 +16,7 @@ pub(crate) mod precise;
 mod program;
 
 use glam::DVec3;
-use shadowfit::Plane;
+use shadowfit::focus::Plane;
 
 use enclosure::{Doubt, Enclosure, Side};
 use half_spaces::HalfSpaces;

@@ -5,7 +5,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use shadowfit::Plane;
+use shadowfit::focus::Plane;
 
 use super::random::Random;
 use super::shapes::{cuboid, tetrahedron};

@@ -3,7 +3,7 @@
 use anyhow::{Context, Result, ensure};
 use dashu_ratio::RBig;
 use serde::Serialize;
-use shadowfit::{Focus, Form};
+use shadowfit::{Focus, FocusForm};
 
 use super::Set;
 use super::cases::{self, Case};
@@ -116,7 +116,7 @@ fn errors(cases: &[Case], set: Set) -> Result<[Vec<Errors>; 6]> {
     for (index, case) in cases.iter().enumerate() {
         let truth = Truth::new(case);
         let scene = case.scene().context("the scene was taken before")?;
-        let certified = Focus::new(&case.view, &case.light, &scene).body(Form::Paper);
+        let certified = Focus::new(&case.view, &case.light, &scene).caster_volume(FocusForm::ViewHull);
         let certified: Vec<[f64; 3]> = certified.vertices().iter().map(|vertex| vertex.to_array()).collect();
         let exact = vertices::<RBig>(case, false).context("an exact body is closed")?;
         ensure!(
@@ -182,7 +182,9 @@ impl Timed<'_> {
                 Box::new(move || {
                     Ok(timing::taken(|| {
                         for (case, scene) in self.cases.iter().zip(&scenes) {
-                            std::hint::black_box(Focus::new(&case.view, &case.light, scene).body(Form::Paper));
+                            std::hint::black_box(
+                                Focus::new(&case.view, &case.light, scene).caster_volume(FocusForm::ViewHull),
+                            );
                         }
                     }))
                 })

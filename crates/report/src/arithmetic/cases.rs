@@ -6,7 +6,7 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use shadowfit::glam::DVec3;
-use shadowfit::{InputError, Light, Plane, Scene, View};
+use shadowfit::{InputError, Light, Scene, View, focus::Plane};
 
 use crate::arbitrary::{SceneParams, SceneStore, case, plane};
 use crate::outdoors::{self, Kind, TOWN};
@@ -81,15 +81,16 @@ pub(crate) fn hard(count: usize) -> Vec<Case> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use shadowfit::{Focus, Form};
+    use shadowfit::{Focus, FocusForm};
 
     #[test]
     fn the_town_is_that_of_the_outdoor_views() {
         let mut solid = 0;
         for case in random(9) {
             let scene = case.scene().expect("a legal scene");
-            let bodies = [&scene, &outdoors::town()]
-                .map(|scene| Focus::new(&case.view, &case.light, scene).body(Form::Paper).vertices().to_vec());
+            let bodies = [&scene, &outdoors::town()].map(|scene| {
+                Focus::new(&case.view, &case.light, scene).caster_volume(FocusForm::ViewHull).vertices().to_vec()
+            });
             assert_eq!(bodies[0], bodies[1]);
             solid += usize::from(bodies[0].len() >= 4);
         }

@@ -5,7 +5,7 @@ use std::hint::black_box;
 use anyhow::{Context, Result};
 use serde::Serialize;
 use shadowfit::glam::DVec3;
-use shadowfit::{ClipSpace, Focus, Map, Settings, Warp};
+use shadowfit::{ClipSpace, Focus, Settings, ShadowMap, Warp};
 
 use super::Set;
 use super::setups;
@@ -117,7 +117,7 @@ struct Prepared {
     view: shadowfit::View,
     light: shadowfit::Light,
     settings: Settings,
-    map: Map,
+    map: ShadowMap,
     /// The vertices of what is visible, as f32 has them: what a uniform map is made around.
     visible: Vec<DVec3>,
 }
@@ -219,8 +219,8 @@ fn errors_of(case: &Prepared) -> [Option<f64>; 5] {
     let exact = case.ours_exactly();
     let of = |matrix: Option<M4<Big>>, exact: &M4<Big>| error(&matrix?, exact, &points);
     [
-        of(exactly(&rows_of(&case.map.matrix().as_dmat4())), &exact),
-        of(exactly(&rows_of(&case.map.shadow_from_world_in(ClipSpace::WGPU))), &exact),
+        of(exactly(&rows_of(&case.map.caster_matrix().as_dmat4())), &exact),
+        of(exactly(&rows_of(&case.map.clip_from_world_in(ClipSpace::WGPU))), &exact),
         of(exactly(&case.by_hand::<f32>()), &by_hand),
         of(exactly(&case.by_hand::<f64>()), &by_hand),
         of(Some(by_hand.clone()), &by_hand),
@@ -270,7 +270,7 @@ fn work(case: &Prepared, precision: Precision) {
         Precision::F32 => drop(black_box(case.by_hand::<f32>())),
         Precision::F64 => drop(black_box(case.by_hand::<f64>())),
         Precision::Big => drop(black_box(case.by_hand::<Big>())),
-        Precision::Ours => drop(black_box(map().shadow_from_world_in(ClipSpace::WGPU))),
-        Precision::Uploaded => drop(black_box(map().matrix())),
+        Precision::Ours => drop(black_box(map().clip_from_world_in(ClipSpace::WGPU))),
+        Precision::Uploaded => drop(black_box(map().caster_matrix())),
     }
 }

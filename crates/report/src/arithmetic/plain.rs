@@ -10,7 +10,7 @@
 //!
 //! for lights at a position (l = (p, 1)) and at infinity (l = (d, 0)) alike, without a division.
 
-use shadowfit::{Light, Plane, View};
+use shadowfit::{Light, View, focus::Plane};
 
 use super::number::{Number, Row, on};
 use super::polyhedron::Polyhedron;

@@ -4,7 +4,7 @@
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use shadowfit::glam::DVec3;
-use shadowfit::{Focus, Map, Origin};
+use shadowfit::{Focus, Origin, ShadowMap};
 
 use super::stability::lights::{in_f32, through_zero};
 use super::stability::setup::{Camera, Lamp, Setup};
@@ -100,7 +100,7 @@ fn in_f32_all(v: DVec3) -> DVec3 {
 fn has_map(setup: &Setup) -> bool {
     let focus = Focus::new(&setup.camera.view(), &setup.lamp.light(), &setup.scene());
     let outcome = focus.fit(&setup.settings());
-    let is_finite = |map: &Map| {
+    let is_finite = |map: &ShadowMap| {
         let depth = map.depth();
         depth.near.is_finite() && depth.far.is_finite()
     };

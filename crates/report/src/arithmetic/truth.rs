@@ -40,7 +40,7 @@ impl Errors {
 
 impl Truth {
     pub(crate) fn new(case: &Case) -> Self {
-        let row = |plane: &shadowfit::Plane| plane.to_row().to_array();
+        let row = |plane: &shadowfit::focus::Plane| plane.to_row().to_array();
         let mut rows: Vec<[f64; 4]> = Vec::new();
         for (axis, normal) in DVec3::AXES.into_iter().enumerate() {
             rows.push(normal.extend(-case.min[axis]).to_array());

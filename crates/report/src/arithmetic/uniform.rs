@@ -1,7 +1,7 @@
 //! The crate's uniform map of a sun, by the formulas of its documentation, in any of the numbers: a box in the light's own axes
 //! around what is visible.
 
-use shadowfit::Map;
+use shadowfit::ShadowMap;
 use shadowfit::glam::DVec3;
 
 use super::stability::arithmetic::Real;
@@ -19,7 +19,7 @@ pub(crate) struct Extent<T> {
 
 impl<T: Real> Extent<T> {
     /// The crate's choice, which has room for what f32 rounds.
-    pub(crate) fn of(map: &Map) -> Self {
+    pub(crate) fn of(map: &ShadowMap) -> Self {
         let (window, depth) = (map.window(), map.depth());
         Self {
             half: [window.width, window.height].map(|side| T::of(side) / T::of(2.0)),
@@ -74,7 +74,7 @@ mod tests {
             let map = outcome.map().expect("a sun has a map");
             let visible: Vec<V3<f64>> = setup.visible().into_iter().map(vector).collect();
             let rows = uniform(&setup, to_sun, &visible, Some(Extent::of(map)));
-            let theirs = rows_of(&map.shadow_from_world_in(ClipSpace::WGPU));
+            let theirs = rows_of(&map.clip_from_world_in(ClipSpace::WGPU));
             for p in &visible {
                 let [ours, theirs] = [&rows, &theirs].map(|rows| {
                     let [x, y, z, w] = rows.each_ref().map(|row| at(row, p));

@@ -14,7 +14,7 @@ use bevy_light::{CascadeShadowConfig, Cascades, DirectionalLight, DirectionalLig
 use bevy_math::{Mat3, Quat, Vec3};
 use bevy_transform::components::{GlobalTransform, Transform};
 use shadowfit::glam::{DMat4, DVec3};
-use shadowfit::{Lens, View};
+use shadowfit::{View, input::Lens};
 
 use super::case::Case;
 use super::contender::{Contender, Fitted, NearSide, frustum};

@@ -2,7 +2,7 @@
 
 use anyhow::{Context as _, Result};
 use shadowfit::glam::{DVec3, Vec3};
-use shadowfit::{Light, Plane, Scene, View};
+use shadowfit::{Light, Scene, View, focus::Plane};
 
 /// A view, a light and a scene, in all the forms that contenders ask for.
 #[derive(Clone, Debug)]

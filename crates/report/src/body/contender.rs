@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use shadowfit::glam::{DMat4, DVec3};
-use shadowfit::{Aabb, Plane};
+use shadowfit::{Aabb, focus::Plane};
 
 use super::case::{Case, farthest_corner, in_f64};
 use crate::timing::taken;
@@ -36,7 +36,7 @@ pub(crate) enum Culling {
     /// Boxes that are not wholly outside of a plane, as engines cull by a frustum.
     Planes(Vec<Plane>),
     /// Boxes that meet a body, by its own test.
-    Body(Box<shadowfit::Body>),
+    Body(Box<shadowfit::focus::ConvexBody>),
     /// None.
     Nobody,
 }

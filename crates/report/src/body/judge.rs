@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use shadowfit::Plane;
+use shadowfit::focus::Plane;
 use shadowfit::glam::DVec3;
 
 use super::case::{Case, farthest_corner, in_f64};

@@ -1,6 +1,6 @@
 //! H by a general-purpose library of convex geometry, in f32 and in f64: parry's convex hull, cut by parry's half-spaces.
 
-use shadowfit::Plane;
+use shadowfit::focus::Plane;
 use shadowfit::glam::{DVec3, Mat4};
 
 use super::case::Case;
@@ -78,7 +78,7 @@ impl Hull {
 macro_rules! precision {
     ($module:ident, $parry:ident, $real:ty) => {
         mod $module {
-            use shadowfit::Plane;
+            use shadowfit::focus::Plane;
             use shadowfit::glam::DVec3;
             use $parry::math::Vector;
             use $parry::query::details::clip_halfspace_polygon;

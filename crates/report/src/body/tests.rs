@@ -3,7 +3,7 @@
 use super::*;
 use crate::chapter::Part;
 use contender::{Culling, Fitted};
-use shadowfit::Plane;
+use shadowfit::focus::Plane;
 use shadowfit::glam::DVec3;
 
 #[test]

@@ -3,7 +3,7 @@
 use anyhow::{Context as _, Result};
 use dashu_int::IBig;
 use shadowfit::glam::DVec3;
-use shadowfit::{Aabb, Focus, Light, Plane, Scene, View};
+use shadowfit::{Aabb, Focus, Light, Scene, View, focus::Plane};
 
 use super::case::{Case, box_planes, farthest_corner, in_f64};
 use super::town::{Town, bounds};
@@ -137,7 +137,7 @@ impl TownTruth {
         let needed = town.casters.iter().map(|caster| truth.body.meets(caster)).collect();
         let corners = |one: &Aabb| -> Result<Vec<DVec3>> {
             let scene = Scene::from_box(one.min, one.max).context("a receiver is no box")?;
-            Ok(Focus::new(&case.view, &case.light, &scene).visible().vertices().to_vec())
+            Ok(Focus::new(&case.view, &case.light, &scene).receiver_volume().vertices().to_vec())
         };
         let seen = receivers.iter().map(corners).collect::<Result<_>>()?;
         Ok(Some(Self { truth, needed, seen }))

@@ -5,7 +5,10 @@ use std::hint::black_box;
 
 use anyhow::{Result, ensure};
 use render_check::technique::Technique;
-use shadowfit::{Budget, Focus, Form, Objects, Scene, fit, plan};
+use shadowfit::{
+    Focus, FocusForm, Scene, fit,
+    plan::{Budget, Objects, plan},
+};
 
 use super::cost::{Cost, Counted, Work, on_processor};
 use super::town;
@@ -23,11 +26,12 @@ pub(super) fn measure(size: Size) -> Result<Vec<Cost>> {
     let counts = &COUNTS[..size.of(3, COUNTS.len())];
     let most = COUNTS[counts.len() - 1];
     let (view, sun, boxes) = (town::view()?, town::sun()?, town::boxes(most));
-    let body = Focus::new(&view, &sun, &town::bounds()?).body(Form::Tight);
+    let body = Focus::new(&view, &sun, &town::bounds()?).caster_volume(FocusForm::ReceiverHull);
     let culler = body.culler();
     let mut meets = vec![false; most];
     culler.boxes(&boxes, &mut meets);
-    let lost = boxes.iter().zip(&meets).filter(|(one, meets)| body.meets_box(one.min, one.max) && !**meets).count();
+    let lost =
+        boxes.iter().zip(&meets).filter(|(one, meets)| body.intersects_aabb(one.min, one.max) && !**meets).count();
     ensure!(lost == 0, "culling in bulk loses {lost} of {most} boxes that meet H one by one");
 
     let counted = Counted::Casters;
@@ -40,7 +44,7 @@ pub(super) fn measure(size: Size) -> Result<Vec<Cost>> {
     })?;
     costs.extend(on_processor(Work::CullOneByOne, counted, counts, size, |count| {
         let (boxes, body) = (&boxes[..count], &body);
-        Ok(move || black_box(boxes).iter().filter(|one| body.meets_box(one.min, one.max)).count())
+        Ok(move || black_box(boxes).iter().filter(|one| body.intersects_aabb(one.min, one.max)).count())
     })?);
     costs.extend(on_processor(Work::Sort, counted, counts, size, |count| {
         let objects = town::objects(count);

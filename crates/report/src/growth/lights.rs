@@ -4,7 +4,10 @@ use std::hint::black_box;
 
 use anyhow::Result;
 use render_check::technique::Technique;
-use shadowfit::{Budget, Light, Objects, fit, plan};
+use shadowfit::{
+    Light, fit,
+    plan::{Budget, Objects, plan},
+};
 
 use super::cost::{Cost, Counted, Work, on_processor};
 use super::town;

@@ -5,7 +5,13 @@ use std::hint::black_box;
 use anyhow::{Result, ensure};
 use render_check::technique::Technique;
 use shadowfit::glam::DVec3;
-use shadowfit::{ConvexScene, Cuts, Focus, Form, InputError, Plane, Scene, Settings, Slices, Split, fit};
+use shadowfit::{
+    Focus, FocusForm, InputError, Scene, Settings,
+    cascades::{CascadeSplits, Cascades, SplitScheme},
+    fit,
+    focus::Plane,
+    input::ConvexScene,
+};
 
 use super::cost::{Cost, Counted, Work, on_processor};
 use super::town;
@@ -40,9 +46,14 @@ fn planes(size: Size) -> Result<Vec<Cost>> {
     }
     costs.extend(on_processor(Work::Body, Counted::Planes, &PLANES, size, |count| {
         let (body, view, sun) = (cut_town(count)?, &view, &sun);
-        let planes = Focus::new(view, sun, &Scene::from_convex(&body)).body(Form::Tight).planes().count();
+        let planes = Focus::new(view, sun, &Scene::from_convex(&body))
+            .caster_volume(FocusForm::ReceiverHull)
+            .planes()
+            .count();
         ensure!(planes > BOX_PLANES, "H has {planes} planes");
-        Ok(move || Focus::new(black_box(view), sun, &Scene::from_convex(&body)).body(Form::Tight))
+        Ok(move || {
+            Focus::new(black_box(view), sun, &Scene::from_convex(&body)).caster_volume(FocusForm::ReceiverHull)
+        })
     })?);
     Ok(costs)
 }
@@ -74,11 +85,11 @@ fn texels(size: Size) -> Result<Vec<Cost>> {
 }
 
 fn slices(size: Size) -> Result<Vec<Cost>> {
-    let counts: Vec<usize> = (1..=Slices::MAX).collect();
+    let counts: Vec<usize> = (1..=Cascades::MAX).collect();
     let (view, sun, bounds) = (town::view()?, town::sun()?, town::bounds()?);
     let cut = |count| {
-        let cuts = Cuts::Visible { count, split: Split::Blended(0.5) };
-        Slices::new(black_box(&view), &sun, &bounds, cuts, 0.1)
+        let cuts = CascadeSplits::Visible { count, split: SplitScheme::Practical(0.5) };
+        Cascades::new(black_box(&view), &sun, &bounds, cuts, 0.1)
     };
     let mut costs = on_processor(Work::Cut, Counted::Slices, &counts, size, |count| Ok(move || cut(count)))?;
     for (work, technique) in [(Work::CutAndFitUniform, Technique::Uniform), (Work::CutAndFitBest, Technique::Best)]

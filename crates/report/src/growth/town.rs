@@ -5,7 +5,11 @@ use rand::rngs::StdRng;
 use rand::{RngExt as _, SeedableRng as _};
 use render_check::technique::Technique;
 use shadowfit::glam::{DVec3, Vec3};
-use shadowfit::{Aabb, InputError, Light, Object, Scene, Settings, Solidity, Surface, View, fit};
+use shadowfit::{
+    Aabb, InputError, Light, Scene, Settings, View, fit,
+    mesh::Solidity,
+    plan::{Object, Surface},
+};
 
 use crate::outdoors::Kind;
 
@@ -70,7 +74,7 @@ pub(super) fn boxes(count: usize) -> Vec<Aabb> {
 pub(super) fn objects(count: usize) -> Vec<Object> {
     let ground = Object::new(Aabb::new(Vec3::new(-HALF, -1.0, -HALF), Vec3::new(HALF, 0.0, HALF)));
     let house = |(index, bounds): (usize, Aabb)| {
-        let solidity = if index % 10 < 7 { Solidity::Solid } else { Solidity::Open };
+        let solidity = if index % 10 < 7 { Solidity::Watertight } else { Solidity::Open };
         Object { surface: Surface::Mesh(solidity), triangles: 300, ..Object::new(bounds) }
     };
     let houses = boxes(count.saturating_sub(1)).into_iter().enumerate().map(house);

@@ -144,9 +144,9 @@ pub fn comparisons(size: Size) -> Vec<Comparison> {
             narrowed: &[true],
             contenders: [
                 Filter::Nearest,
-                Filter::Hardware,
-                Filter::PercentageCloser(3),
-                Filter::PercentageCloser(5),
+                Filter::Hardware2x2,
+                Filter::Pcf(3),
+                Filter::Pcf(5),
                 Filter::Virtual(2),
                 Filter::Virtual(3),
             ]

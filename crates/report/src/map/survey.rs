@@ -80,7 +80,7 @@ pub fn survey(size: Size) -> Result<Vec<SurveyRecord>> {
 
 /// The view narrowed to the depths that lit ground is seen in; the whole view where there is none.
 fn on_ground(view: &View, light: &Light, ground: &Scene<'_>) -> View {
-    let visible = Focus::new(view, light, ground).visible();
+    let visible = Focus::new(view, light, ground).receiver_volume();
     let depths = || visible.vertices().iter().map(|&point| view.depth(point));
     let (near, far) = (depths().fold(f64::INFINITY, f64::min), depths().fold(0.0, f64::max));
     view.narrowed(near, far).unwrap_or(*view)
@@ -100,7 +100,7 @@ fn of_kind(
         let focus = Focus::new(view, light, scene);
         let aliasing = |settings: &Settings| focus.fit(settings).map()?.aliasing_over(&focus);
         let Some(uniform) = aliasing(&settings[0]) else { continue };
-        let limit = focus.limit(&settings[0]);
+        let limit = focus.aliasing_lower_bound(&settings[0]);
         for (ratios, settings) in ratios.iter_mut().zip(&settings) {
             let found = aliasing(settings).context("a view has a uniform map and none with a warp")?;
             let of_view = [found.worst / uniform.worst, found.mean / uniform.mean, found.worst / limit];

@@ -1,6 +1,6 @@
 //! What holds for every built-in scene.
 
-use shadowfit::{Solidity, View};
+use shadowfit::{View, mesh::Solidity};
 
 use super::solids::open_edges;
 use super::*;
@@ -81,7 +81,7 @@ fn solids_are_closed_and_face_outwards_and_only_leaves_points_and_the_plate_are_
         };
         assert_eq!(open.len(), sheets, "{}: {:?}", scene.name, open.first());
         assert!(open.iter().all(|object| object.solidity == Solidity::Open), "{}", scene.name);
-        assert!(closed.iter().all(|object| object.solidity == Solidity::Solid), "{}", scene.name);
+        assert!(closed.iter().all(|object| object.solidity == Solidity::Watertight), "{}", scene.name);
         for object in closed {
             let middle = 0.5 * (object.min + object.max);
             let corners = object.triangles.clone().map(|t| scene.mesh.corners(t as usize).map(|p| p - middle));
