@@ -2,74 +2,46 @@
 //!
 //! What the card does is what a renderer does: it draws the casters that culling against H leaves, through the matrix as
 //! the crate gives it, and tests the pixels of a camera's image against the map. What is true is found by rays in f64.
-//! The data flows down this list:
+//! The modules, each built on those above it:
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`args`], `values`, `help` | the command line |
-//! | [`light`] | a light as a person writes it, and as the fit takes it |
-//! | [`scene`] | the triangles, cameras and lights of a `.glb` file, or of a scene made by code |
-//! | [`trace`] | rays against the triangles |
-//! | [`framing`] | which camera looks at the scene, and its near and far planes |
-//! | [`opening`] | all of the above, as every command begins |
+//! | [`scene`] | triangles, cameras and lights: of a `.glb` file, or of a scene made by code |
+//! | [`output`] | progress bars, tables, JSON |
+//! | [`trace`] | rays against the triangles, in f64 |
+//! | [`maps`] | the techniques, the kinds of maps, and which of a light's maps covers a point |
 //! | [`gpu`] | the passes on the card: camera, shadow map, shadow test |
-//! | [`verdict`] | the truth about every pixel, and what is wrong with a rendered one |
-//! | [`stage`] | one camera before one scene, drawn |
-//! | [`split`], [`slicing`] | which of a light's maps answers for a point, and the view cut into slices |
-//! | [`layout`], [`cut`] | the kinds of maps, and triangles cut for those that bend lines |
-//! | [`technique`], [`fitted_maps`], [`run`] | one light through one kind of map: fitted, culled, drawn, tested, judged |
-//! | [`frames`] | frame after frame of the same maps, to be timed |
-//! | [`prediction`] | what the fit says of the maps beforehand |
-//! | [`report`], [`table`], [`check_table`] | what is written and printed of it |
-//! | [`picture`] | what is written as PNG |
+//! | [`verdict`] | the ray-traced truth about every pixel, and what is wrong with a rendered one |
+//! | [`stage`] | one camera in front of one scene, drawn; its near and far planes |
+//! | [`run`] | one light with one technique: fitted, culled, drawn, tested, judged, reported |
+//! | [`picture`] | PNG files |
+//! | [`cli`] | arguments, help and opening steps that the commands share |
+//! | [`cmd`] | the commands |
 //!
-//! and into the commands:
+//! and the commands:
 //!
 //! | module | what it does |
 //! |---|---|
-//! | [`check`] | one scene: every light, every technique, every size |
-//! | [`sweep`] | the hard cases |
-//! | [`walk`] | a camera that moves, and what flickers |
-//! | [`plan`] | all lights of a scene, planned ([`planned`]), drawn as planned and checked |
-//! | [`ablation`] | what a plan leaves out and asks for, drawn with and without |
-//! | [`draw`] | the fit alone ([`fitting`], [`fitting_table`]) and pictures of H, by ray casting: needs no card |
+//! | [`cmd::check`] | one scene: every light, every technique, every size |
+//! | [`cmd::sweep`] | the hard cases |
+//! | [`cmd::walk`] | moves the camera and counts pixels that flicker |
+//! | [`cmd::plan`] | plans all lights of a scene, draws them as planned and checks the result |
+//! | [`cmd::ablation`] | draws each thing that a plan leaves out or asks for, with and without it |
+//! | [`cmd::draw`] | the fit alone and pictures of H, by ray casting: needs no card |
 
 #![allow(
     clippy::disallowed_methods,
     reason = "the fitting path needs the same bits on every platform; pictures and default cameras do not"
 )]
 
-pub mod ablation;
-pub mod args;
-pub mod check;
-pub mod check_table;
-pub mod cut;
-pub mod draw;
-pub mod fitted_maps;
-pub mod fitting;
-pub mod fitting_table;
-pub mod frames;
-pub mod framing;
+pub mod cli;
+pub mod cmd;
 pub mod gpu;
-pub(crate) mod help;
-pub mod layout;
-pub mod light;
-pub mod opening;
+pub mod maps;
+pub mod output;
 pub mod picture;
-pub mod plan;
-pub mod planned;
-pub mod prediction;
-pub mod progress;
-pub mod report;
 pub mod run;
 pub mod scene;
-pub mod slicing;
-pub mod split;
 pub mod stage;
-pub mod sweep;
-pub mod table;
-pub mod technique;
 pub mod trace;
-pub(crate) mod values;
 pub mod verdict;
-pub mod walk;

@@ -1,6 +1,6 @@
 //! What a plan leaves out costs no pixels beyond a bound, and what it asks for pays.
 
-use render_check::ablation::{Ablation, CASES, Effect};
+use render_check::cmd::ablation::{Ablation, CASES, Effect};
 use render_check::gpu::Gpu;
 
 /// Width of the pictures, in pixels.
@@ -12,7 +12,7 @@ fn all() -> Vec<(bool, Ablation)> {
     CASES.iter().map(|case| (case.is_asked_for, of(case))).collect()
 }
 
-/// By [`render_check::ablation::MOST_COST`] and [`render_check::ablation::LEAST_GAIN`].
+/// By [`render_check::cmd::ablation::MOST_COST`] and [`render_check::cmd::ablation::LEAST_GAIN`].
 #[test]
 fn leaving_out_costs_no_pixels_and_putting_in_pays() {
     for (is_asked_for, ablation) in all() {

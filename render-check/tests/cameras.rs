@@ -4,15 +4,11 @@
 
 use std::time::Duration;
 
-use render_check::fitted_maps::{FittedMap, FittedMaps};
 use render_check::gpu::Gpu;
-use render_check::layout::Layout;
-use render_check::light::LightSpec;
-use render_check::run::{Options, run, run_fitted};
-use render_check::scene::{self, Mesh};
-use render_check::split::Split;
+use render_check::maps::{Layout, Split, Technique};
+use render_check::run::{FittedMap, FittedMaps, Options, run, run_fitted};
+use render_check::scene::{self, LightSpec, Mesh};
 use render_check::stage::Stage;
-use render_check::technique::Technique;
 use render_check::trace::Tracer;
 use shadowfit::glam::{DMat4, DVec3, DVec4};
 use shadowfit::{

@@ -9,11 +9,11 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use common::{pass, sweep, verdict};
-use render_check::report::RunResult;
+use render_check::cmd::sweep::SweepRun;
+use render_check::maps::Technique;
+use render_check::run::RunResult;
 use render_check::scene::damage::{Fault, damaged, in_single_precision};
 use render_check::scene::{self, LeftOut, LoadedScene, Mesh};
-use render_check::sweep::SweepRun;
-use render_check::technique::Technique;
 use render_check::trace::{Faces, Ray, Tracer};
 use render_check::verdict::{Counts, Mark};
 use shadowfit::glam::DVec3;

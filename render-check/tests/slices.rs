@@ -6,13 +6,11 @@ use std::path::Path;
 use std::time::Duration;
 
 use common::gpu;
-use render_check::fitted_maps::FittedMaps;
 use render_check::gpu::{Filter, Gpu};
-use render_check::run::{MapRun, Options, run, run_fitted};
+use render_check::maps::{Slicing, SplitArg, Technique};
+use render_check::run::{FittedMaps, MapRun, Options, run, run_fitted};
 use render_check::scene::{self, LoadedScene};
-use render_check::slicing::{Slicing, SplitArg};
 use render_check::stage::{Stage, StageLight};
-use render_check::technique::Technique;
 use render_check::trace::Tracer;
 use render_check::verdict::Mark;
 use shadowfit::{View, cascades::Cascades};

@@ -11,9 +11,9 @@ mod common;
 use std::collections::HashMap;
 
 use common::{pass, passes, sweep, verdict};
+use render_check::cmd::sweep::SweepRun;
 use render_check::gpu::Filter;
-use render_check::sweep::SweepRun;
-use render_check::technique::Technique;
+use render_check::maps::Technique;
 use render_check::trace::Faces;
 use render_check::verdict::Counts;
 

@@ -8,15 +8,11 @@ mod common;
 use std::path::Path;
 
 use common::gpu;
-use render_check::cut::Cutting;
 use render_check::gpu::{Bias, Filter, MapDraw, MapPass, Points, ShadowMaps, shadow_test};
-use render_check::layout::Layout;
-use render_check::light::LightSpec;
-use render_check::run::{MapRun, Options, run};
-use render_check::scene::{self, LoadedScene};
-use render_check::split::Split;
+use render_check::maps::{Layout, Split, Technique};
+use render_check::run::{Cutting, MapRun, Options, run};
+use render_check::scene::{self, LightSpec, LoadedScene};
 use render_check::stage::{Stage, StageLight};
-use render_check::technique::Technique;
 use render_check::trace::{Faces, Tracer};
 use render_check::verdict::{self, DrawnMap, Frustum, Rendered, Verdict, judge};
 use shadowfit::glam::DVec3;

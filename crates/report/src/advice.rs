@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use render_check::gpu::Filter;
-use render_check::technique::Technique;
+use render_check::maps::Technique;
 use serde::Serialize;
 use shadowfit::{Settings, plan::Budget};
 

@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use clap::Parser;
-use render_check::opening::complain;
+use render_check::output::complain;
 use report::args::Args;
 use report::run::run;
 

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use render_check::gpu::Gpu;
-use render_check::opening::{complain, make_directory, say};
+use render_check::output::{complain, make_directory, say};
 
 use crate::args::Args;
 use crate::machine::Machine;

@@ -4,7 +4,9 @@ use anyhow::Result;
 use shadowfit::{View, input::DepthRange};
 use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
 
-use super::{Gpu, Surfaces, read_back, shaders};
+use super::device::Gpu;
+use super::surfaces::Surfaces;
+use super::{read_back, shaders};
 
 /// Pixels across and down that one workgroup of the shader reads.
 const TILE: u32 = 16;

@@ -8,7 +8,7 @@ use pollster::block_on;
 use shadowfit::glam::Mat4;
 use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
 
-use super::pass::PipelineKey;
+use super::pipeline_key::PipelineKey;
 
 /// Said where there is no adapter.
 const NO_ADAPTER: &str = "no graphics adapter was found: install a Vulkan driver (on Debian, `apt-get install \

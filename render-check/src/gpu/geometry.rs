@@ -7,7 +7,7 @@ use shadowfit::glam::DVec3;
 use shadowfit::mesh::Solidity;
 use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
 
-use super::Gpu;
+use super::device::Gpu;
 use crate::scene::{Disc, Mesh};
 
 /// The triangles of a mesh in f32, three vertices each, so that the number of a vertex tells its triangle.

@@ -8,10 +8,12 @@
 //! | [`ShadowMaps`] | the depths of the casters, through the matrix of each of a light's maps |
 //! | [`shadow_test`] | how much light reaches every pixel, as the shadow maps have it |
 
+mod depth_copy;
 mod depth_ends;
 mod device;
 mod geometry;
 mod pass;
+mod pipeline_key;
 mod read_back;
 mod shaders;
 mod shadow_map;

@@ -6,7 +6,10 @@ use std::time::Duration;
 
 use anyhow::Result;
 
-use super::{Geometry, Gpu, read_back};
+use super::device::Gpu;
+use super::geometry::Geometry;
+use super::pipeline_key::PipelineKey;
+use super::read_back;
 
 /// Pipelines, in the few ways they differ here.
 pub(super) struct PipelineKind<'a> {
@@ -18,19 +21,6 @@ pub(super) struct PipelineKind<'a> {
     pub(super) primitive: wgpu::PrimitiveState,
     pub(super) depth: Option<wgpu::DepthStencilState>,
     pub(super) targets: &'a [wgpu::TextureFormat],
-}
-
-/// All that a pipeline is made of, to know it by.
-#[derive(PartialEq, Eq, Hash)]
-pub(super) struct PipelineKey {
-    shader: String,
-    /// The bits of the numbers.
-    constants: Vec<(String, u64)>,
-    takes_geometry: bool,
-    has_fragments: bool,
-    primitive: wgpu::PrimitiveState,
-    depth: Option<wgpu::DepthStencilState>,
-    targets: Vec<wgpu::TextureFormat>,
 }
 
 impl PipelineKind<'_> {

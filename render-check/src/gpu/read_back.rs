@@ -3,8 +3,7 @@
 use anyhow::{Context, Result};
 use bytemuck::Pod;
 
-use super::pass::{FULL_SCREEN, Pass, PipelineKind};
-use super::{Gpu, shaders};
+use super::device::Gpu;
 
 /// The bytes of a buffer that can be mapped, once all work so far is done.
 pub(super) fn bytes(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>> {
@@ -43,30 +42,4 @@ pub(super) fn texels<T: Pod>(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<T
     gpu.queue.submit([encoder.finish()]);
     let bytes = bytes(gpu, &buffer)?;
     Ok(bytes.chunks_exact(padded_row).flat_map(|padded| bytemuck::pod_collect_to_vec(&padded[..row])).collect())
-}
-
-/// The depths of a depth buffer, row by row from the top.
-pub(super) fn depths(gpu: &Gpu, view: &wgpu::TextureView, size: u32) -> Result<Vec<f32>> {
-    let format = wgpu::TextureFormat::R32Float;
-    let (copy, copy_view) = gpu.target([size, size], format);
-    let pipeline = PipelineKind {
-        shader: shaders::COPY_DEPTH,
-        constants: &[],
-        takes_geometry: false,
-        has_fragments: true,
-        primitive: wgpu::PrimitiveState::default(),
-        depth: None,
-        targets: &[format],
-    }
-    .build(gpu);
-    let pass = Pass {
-        pipeline: &pipeline,
-        bindings: &gpu.bindings(&pipeline, &[wgpu::BindingResource::TextureView(view)]),
-        colours: &[&copy_view],
-        depth: None,
-        geometry: None,
-        draws: &[FULL_SCREEN],
-    };
-    pass.run(gpu)?;
-    texels(gpu, &copy)
 }

@@ -12,11 +12,12 @@ use shadowfit::{
     omni::Paraboloid,
 };
 
+use super::device::Gpu;
+use super::geometry::Geometry;
 use super::pass::{Pass, PipelineKind, depth_state};
 use super::splats::{Points, SplatPass};
-use super::{Geometry, Gpu, read_back, shaders};
-use crate::layout::Layout;
-use crate::split::Split;
+use super::{depth_copy, shaders};
+use crate::maps::{Layout, Split};
 use crate::trace::Faces;
 
 /// What the rasteriser adds to depth, away from the light.
@@ -179,7 +180,7 @@ impl ShadowMaps {
     /// When the card refuses.
     pub fn depths(&self, gpu: &Gpu) -> Result<Vec<Vec<f32>>> {
         let depths =
-            |(layer, (map, _)): (_, &(Layout, _))| read_back::depths(gpu, layer, map.settings().map_size());
+            |(layer, (map, _)): (_, &(Layout, _))| depth_copy::depths(gpu, layer, map.settings().map_size());
         gpu.guarded("the shadow map's depths", || self.layers.iter().zip(&self.maps).map(depths).collect())
     }
 }

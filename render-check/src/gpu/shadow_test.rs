@@ -12,10 +12,13 @@ use shadowfit::{
     input::{TextureOrigin, YAxis},
 };
 
+use super::device::Gpu;
 use super::pass::{FULL_SCREEN, Pass, PipelineKind};
+use super::read_back;
 use super::shaders::{self, LayoutText};
-use super::{Gpu, ShadowMaps, Surfaces, read_back};
-use crate::layout::Layout;
+use super::shadow_map::ShadowMaps;
+use super::surfaces::Surfaces;
+use crate::maps::Layout;
 
 /// How a shadow map is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

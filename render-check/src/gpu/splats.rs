@@ -5,8 +5,10 @@ use std::time::Duration;
 
 use anyhow::Result;
 
+use super::device::Gpu;
+use super::geometry::Geometry;
 use super::pass::{Pass, PipelineKind};
-use super::{Geometry, Gpu, shaders};
+use super::shaders;
 
 /// What is drawn into a map for a point of a cloud. The camera sees the hexagons of discs in each case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, clap::ValueEnum)]

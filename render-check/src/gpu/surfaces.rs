@@ -6,8 +6,10 @@ use anyhow::Result;
 use shadowfit::View;
 use shadowfit::glam::{DMat4, DVec3, DVec4};
 
+use super::device::Gpu;
+use super::geometry::Geometry;
 use super::pass::{Pass, PipelineKind, depth_state};
-use super::{Geometry, Gpu, read_back, shaders};
+use super::{read_back, shaders};
 
 /// The surface that each pixel of a camera's image shows: its position on the card, relative to the origin of the geometry
 /// that maps are drawn of, and which triangle it is, here.

@@ -9,12 +9,11 @@ use shadowfit::{
 };
 
 use super::*;
-use crate::cut::{Cut, Cutting};
-use crate::layout::Layout;
-use crate::picture::{DepthMap, Lens};
+use crate::maps::{Layout, Split};
+use crate::picture::DepthMap;
+use crate::run::{Cut, Cutting};
 use crate::scene::{self, Mesh};
-use crate::split::Split;
-use crate::trace::{Faces, Hit, Ray, Tracer};
+use crate::trace::{Faces, Hit, Lens, Ray, Tracer};
 
 const IMAGE: [u32; 2] = [160, 100];
 const MAP: u32 = 128;
@@ -224,7 +223,7 @@ fn the_second_layer_is_the_next_surface_that_rays_meet() {
             let draw = MapDraw { map: Layout::Frustum(stage.map), casters: std::slice::from_ref(&all), pass };
             let maps = ShadowMaps::draw(&stage.gpu, &geometry, &Split::whole(), &[Some(draw)]).expect("drawn");
             let behind = &maps.behind.as_ref().expect("asked for").one_by_one[0];
-            let behind = read_back::depths(&stage.gpu, behind, MAP).expect("readable");
+            let behind = depth_copy::depths(&stage.gpu, behind, MAP).expect("readable");
             let first = maps.depths(&stage.gpu).expect("readable").remove(0);
             let away = |depth: f32| f64::from(if clip.depth.is_reversed() { 1.0 - depth } else { depth });
             let tolerance = stage.map.comparison_tolerance(format, 0.5).expect("a reach");

@@ -10,6 +10,12 @@ use rayon::prelude::*;
 /// Linear RGB.
 pub type Colour = [f32; 3];
 
+/// The focus body's edges.
+pub(super) const BODY_COLOUR: Colour = [1.0, 0.28, 0.02];
+
+/// The camera's frustum.
+pub(super) const FRUSTUM_COLOUR: Colour = [0.03, 0.30, 0.95];
+
 /// Samples across and down each pixel.
 pub(super) const SAMPLES: u32 = 2;
 

@@ -5,15 +5,13 @@ use image::{Rgb, RgbImage};
 use shadowfit::glam::{DVec2, DVec3};
 use shadowfit::{View, focus::ConvexBody};
 
-use super::canvas::{Canvas, Sample, encode};
-use super::lens::Lens;
+use super::canvas::{BODY_COLOUR, Canvas, FRUSTUM_COLOUR, Sample, encode};
 use super::lines::{Line, Pen, draw_lines};
 use super::shade::background;
-use super::{BODY_COLOUR, FRUSTUM_COLOUR, text};
-use crate::light::LightSpec;
-use crate::progress;
-use crate::scene::Mesh;
-use crate::trace::Tracer;
+use super::text;
+use crate::output::progress;
+use crate::scene::{LightSpec, Mesh};
+use crate::trace::{Lens, Tracer};
 
 /// Room left around what must be seen, as a part of it.
 const MARGIN: f64 = 1.12;

@@ -3,7 +3,7 @@
 use shadowfit::glam::{DVec2, DVec3, DVec4};
 
 use super::canvas::{Canvas, Colour, mix};
-use super::lens::Lens;
+use crate::trace::Lens;
 
 /// Both ends of a line, in world space.
 pub type Line = (DVec3, DVec3);

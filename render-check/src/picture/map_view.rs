@@ -3,12 +3,11 @@
 use image::{Rgb, RgbImage};
 use rayon::prelude::*;
 
-use super::canvas::{Canvas, Sample, encode};
-use super::lens::Lens;
+use super::canvas::{BODY_COLOUR, Canvas, Sample, encode};
 use super::lines::{Line, Pen, draw_lines};
-use super::{BODY_COLOUR, text};
-use crate::progress;
-use crate::trace::Tracer;
+use super::text;
+use crate::output::progress;
+use crate::trace::{Lens, Tracer};
 
 /// The most texels a picture shows along a side: it is for eyes.
 const MOST_TEXELS: u32 = 1024;

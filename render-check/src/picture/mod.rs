@@ -2,7 +2,6 @@
 
 mod canvas;
 mod close_up;
-mod lens;
 mod light_view;
 mod lines;
 mod map_view;
@@ -14,7 +13,6 @@ mod view;
 
 pub use canvas::{Canvas, Colour, Sample, save};
 pub use close_up::CloseUp;
-pub use lens::Lens;
 pub use light_view::{light_lens, light_view};
 pub use lines::{Line, Pen, draw_lines};
 pub use map_view::{DepthMap, TitledMap, maps_view};
@@ -22,12 +20,6 @@ pub use shade::Lighting;
 pub use slice_view::tinted;
 pub use verdict_view::{aliasing_map, difference, shaded, side_by_side, stored_map};
 pub use view::camera_view;
-
-/// The focus body's edges.
-const BODY_COLOUR: Colour = [1.0, 0.28, 0.02];
-
-/// The camera's frustum.
-const FRUSTUM_COLOUR: Colour = [0.03, 0.30, 0.95];
 
 #[cfg(test)]
 mod tests;

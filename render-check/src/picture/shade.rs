@@ -3,8 +3,7 @@
 use shadowfit::glam::{DVec3, FloatExt};
 
 use super::canvas::{Colour, mix};
-use crate::light::LightSpec;
-use crate::scene::Mesh;
+use crate::scene::{LightSpec, Mesh};
 use crate::trace::{Hit, Ray, Tracer};
 
 /// How a light falls on surfaces.

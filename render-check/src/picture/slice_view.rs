@@ -4,7 +4,7 @@ use image::{Rgb, RgbImage};
 
 use super::canvas::{Colour, encode};
 use super::text;
-use crate::split::Split;
+use crate::maps::Split;
 use crate::verdict::{Truth, TruthImage};
 
 /// A picture with each pixel in the colour of the part of the split that its surface belongs to, as dark as it was.
@@ -47,7 +47,7 @@ mod tests {
     use shadowfit::Scene;
 
     use super::*;
-    use crate::slicing::{self, Slicing, SplitArg};
+    use crate::maps::{Slicing, SplitArg, slices};
     use crate::trace::Tracer;
     use crate::verdict::fake::{self, LAMP_NEAR, SUN};
 
@@ -61,8 +61,7 @@ mod tests {
         let scene = Scene::from_box(min, max).expect("sound");
         let light = SUN.to_light(LAMP_NEAR).expect("sound");
         let cuts = Slicing { count: 3, split: SplitArg(shadowfit::cascades::SplitScheme::Uniform) }.cuts(false);
-        let split =
-            Split::slices(cuts, slicing::slices(&fake::view(), &light, &scene, cuts).expect("a finite view"));
+        let split = Split::slices(cuts, slices(&fake::view(), &light, &scene, cuts).expect("a finite view"));
         let image = tinted(&grey, &truth, &split);
         let mut seen = [0; 3];
         // But for the caption.

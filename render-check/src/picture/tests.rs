@@ -5,9 +5,8 @@ use shadowfit::glam::{DMat4, DVec2, DVec3};
 use shadowfit::{Focus, FocusForm, Light, Scene, View};
 
 use super::*;
-use crate::light::LightSpec;
-use crate::scene::{Mesh, MeshBuilder, Part};
-use crate::trace::Tracer;
+use crate::scene::{LightSpec, Mesh, MeshBuilder, Part};
+use crate::trace::{Lens, Tracer};
 
 /// A white floor from −4 to 4 at height 0 and a white square from −1 to 1 at height 2.
 fn floating_square() -> Mesh {

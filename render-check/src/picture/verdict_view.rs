@@ -9,7 +9,7 @@ use super::canvas::{Colour, encode, mix};
 use super::map_view::DepthMap;
 use super::shade::{Lighting, background};
 use super::text;
-use crate::layout::Layout;
+use crate::maps::Layout;
 use crate::scene::Mesh;
 use crate::trace::{Hit, Ray};
 use crate::verdict::{Mark, Truth, TruthImage};

@@ -5,14 +5,12 @@ use shadowfit::View;
 
 use anyhow::Result;
 
-use super::BODY_COLOUR;
-use super::canvas::{Canvas, Sample, encode};
-use super::lens::Lens;
+use super::canvas::{BODY_COLOUR, Canvas, Sample, encode};
 use super::lines::{Line, Pen, draw_lines};
 use super::shade::{Lighting, background};
 use super::text;
-use crate::progress;
-use crate::trace::Tracer;
+use crate::output::progress;
+use crate::trace::{Lens, Tracer};
 
 /// Casts the camera's picture, lit and shadowed by one light, and draws the focus body's edges over it.
 ///

@@ -2,7 +2,8 @@
 
 use shadowfit::glam::{DMat4, DVec3, Vec3};
 
-use super::{LoadedScene, Mesh, MeshBuilder, Object, Part};
+use super::loaded::LoadedScene;
+use super::mesh::{Mesh, MeshBuilder, Object, Part};
 
 /// What is wrong with a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,9 +12,9 @@ use gltf::{Document, Gltf, Node, Primitive, Semantic};
 use shadowfit::glam::{DMat4, DQuat, DVec3, Vec3};
 
 use super::accessor::{read_indices, read_vectors};
-use super::{LoadedScene, MeshBuilder, Part};
-use crate::framing::Camera;
-use crate::light::LightSpec;
+use super::loaded::LoadedScene;
+use super::mesh::{MeshBuilder, Part};
+use crate::scene::{Camera, LightSpec};
 
 /// Loads a file.
 pub(super) fn load(path: &Path) -> Result<LoadedScene> {

@@ -6,8 +6,8 @@ use std::ops::Range;
 use shadowfit::glam::{DMat3, DMat4, DVec3, Vec3};
 use shadowfit::{input::MAX_COORDINATE, mesh::Solidity, plan::Surface};
 
-use super::LeftOut;
 use super::cloud::{self, Disc};
+use super::left_out::LeftOut;
 
 /// All triangles of a scene, in world space, indexed, with a colour each.
 #[derive(Clone, Debug, Default)]

@@ -3,20 +3,8 @@
 use serde::Serialize;
 use shadowfit::glam::DVec2;
 
-use super::report::Mark;
+use super::mark::{Fault, Mark};
 use super::truth::{TruthImage, neighbours};
-
-/// What is wrong with a pixel, where no edge explains it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Fault {
-    /// The light reaches the point, but the map has it in shadow: acne.
-    FalseShadow,
-    /// Something shadows the point, but the map has it lit: a bias too large, or a map too coarse.
-    FalseLight,
-    /// The same, because the map does not hold a caster that it should.
-    Missing,
-}
 
 /// Pixels at fault that touch each other, at sides or corners.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

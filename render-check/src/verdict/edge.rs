@@ -16,8 +16,11 @@
 
 use shadowfit::glam::DVec2;
 
+use super::comparison::Comparison;
+use super::projection::Projection;
+use super::source::Illumination;
 use super::surface::Surface;
-use super::{Comparison, Illumination, Projection, Truth};
+use super::truth::Truth;
 
 /// How much farther out than the filter reads the truth is asked, in texels.
 const BEYOND: f64 = 0.5;

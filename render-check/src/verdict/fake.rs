@@ -8,11 +8,9 @@ use shadowfit::glam::{DMat4, DVec3};
 use shadowfit::{Scene, Settings, ShadowMap, View, fit};
 
 use super::{Bias, DrawnMap, Frustum, Rendered, TruthImage, Verdict, judge};
-use crate::light::LightSpec;
-use crate::picture::Lens;
-use crate::scene::{Mesh, MeshBuilder, Part};
-use crate::split::Split;
-use crate::trace::{Faces, Hit, Ray, Tracer};
+use crate::maps::Split;
+use crate::scene::{LightSpec, Mesh, MeshBuilder, Part};
+use crate::trace::{Faces, Hit, Lens, Ray, Tracer};
 
 /// Pixels of the picture.
 pub(crate) const SIZE: [u32; 2] = [192, 128];

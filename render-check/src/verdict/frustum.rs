@@ -101,7 +101,7 @@ mod tests {
     use shadowfit::Warp;
 
     use super::*;
-    use crate::picture::Lens;
+    use crate::trace::Lens;
     use crate::verdict::fake::{self, LAMP, SUN};
 
     #[test]

@@ -4,7 +4,7 @@ use shadowfit::glam::{DVec2, DVec3};
 use shadowfit::omni::Paraboloid;
 
 use super::projection::Projection;
-use crate::cut::BENT;
+use crate::maps::BENT;
 
 /// The projection of a fitted [`Paraboloid`].
 #[derive(Clone, Copy, Debug)]

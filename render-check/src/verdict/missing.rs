@@ -32,8 +32,9 @@
 
 use shadowfit::glam::{DVec2, DVec3};
 
+use super::comparison::Comparison;
+use super::rendered::DrawnMap;
 use super::surface::Surface;
-use super::{Comparison, DrawnMap};
 use crate::scene::Mesh;
 
 /// How far off a texel's centre the other rays go, in texels, where the f32 matrix is exact.
@@ -124,8 +125,8 @@ mod tests {
     use shadowfit::glam::DMat4;
 
     use super::*;
+    use crate::maps::Split;
     use crate::scene::{MeshBuilder, Part};
-    use crate::split::Split;
     use crate::trace::Tracer;
     use crate::verdict::fake::{self, Fake, SUN};
     use crate::verdict::{Bias, Frustum, Projection as _, Truth};

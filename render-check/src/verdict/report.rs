@@ -1,43 +1,11 @@
-//! What is told of a comparison: a mark for each pixel, their counts, the worst place, and how coarse the map is.
+//! What is told of a comparison: the counts of the pixels' marks, the worst place, and how coarse the map is.
 
 use serde::Serialize;
 
-use super::cluster::{Cluster, Fault, worst_cluster};
+use super::cluster::{Cluster, worst_cluster};
+use super::mark::Mark;
+use super::share::share;
 use super::truth::{Truth, TruthImage};
-
-/// What came of comparing one pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
-    /// No surface, so nothing to compare.
-    Sky,
-    /// No light that a shadow could take away, so nothing to compare.
-    Unlit,
-    /// As it ought to be.
-    Right,
-    /// Wrong, close in texels to an edge of the true shadow.
-    EdgeTexel,
-    /// Wrong, next in pixels to an edge of the true shadow.
-    EdgePixel,
-    /// Dark, and ought to be lit.
-    FalseShadow,
-    /// Lit, and ought to be dark.
-    FalseLight,
-    /// Lit, and ought to be dark, as the map does not hold a caster that it should.
-    Missing,
-}
-
-impl Mark {
-    /// What is wrong here that no edge explains.
-    #[must_use]
-    pub fn fault(self) -> Option<Fault> {
-        match self {
-            Self::FalseShadow => Some(Fault::FalseShadow),
-            Self::FalseLight => Some(Fault::FalseLight),
-            Self::Missing => Some(Fault::Missing),
-            Self::Sky | Self::Unlit | Self::Right | Self::EdgeTexel | Self::EdgePixel => None,
-        }
-    }
-}
 
 /// Numbers of pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -63,12 +31,6 @@ pub struct Counts {
     pub edge_pixel: usize,
     /// Lit, and ought to be dark, as the map does not hold a caster that it should.
     pub missing: usize,
-}
-
-/// A part of a whole, 0 to 1; 0 where there is nothing.
-#[must_use]
-pub fn share(part: usize, whole: usize) -> f64 {
-    if whole == 0 { 0.0 } else { part as f64 / whole as f64 }
 }
 
 impl Counts {

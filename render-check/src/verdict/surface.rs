@@ -4,9 +4,8 @@ use anyhow::Result;
 use shadowfit::View;
 use shadowfit::glam::{DMat4, DVec2, DVec3};
 
-use crate::picture::Lens;
 use crate::scene::Mesh;
-use crate::trace::Ray;
+use crate::trace::{Lens, Ray};
 
 /// A point of a triangle as the camera sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,11 +1,14 @@
 //! Verdicts on a renderer whose every fault is known.
 
+use anyhow::Result;
 use shadowfit::glam::DVec3;
 use shadowfit::{ClipSpace, Origin, Settings, View, Warp};
 
 use super::fake::{self, Fake, LAMP, LAMP_NEAR, SIZE, SPOT, SUN};
 use super::*;
-use crate::light::LightSpec;
+use crate::maps::Split;
+use crate::scene::LightSpec;
+use crate::trace::{Faces, Tracer};
 
 /// Objects of the fake renderer's mesh.
 const SLAB: usize = 1;

@@ -4,29 +4,13 @@ use anyhow::{Result, bail, ensure};
 use rayon::prelude::*;
 use shadowfit::View;
 
-use super::report::share;
-use super::source::Source;
+use super::share::share;
+use super::source::{Illumination, Source};
 use super::surface::{PixelRays, Surface};
 use crate::gpu::Surfaces;
-use crate::light::LightSpec;
-use crate::progress;
+use crate::output::progress;
+use crate::scene::LightSpec;
 use crate::trace::Tracer;
-
-/// What the light does to a point of a surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Illumination {
-    /// It does not reach the point, whatever stands where: the side that is seen is turned away from the light, or the
-    /// point lies outside of the light's cone or range, or nearer to a lamp than its map begins. A renderer shades such
-    /// points black without asking the map, so they are not compared.
-    Unlit,
-    /// Something stands in its way.
-    Shadow,
-    /// It reaches the point.
-    Lit,
-    /// All that stands in its way is nearer to the lamp than its map begins. No caster is to be there, and where one is,
-    /// it casts or does not: a map begins at a plane and holds some of what is so near. Such points are not compared.
-    Either,
-}
 
 /// What a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq)]

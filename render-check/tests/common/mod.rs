@@ -2,9 +2,9 @@
 
 #![allow(dead_code, reason = "each test file is a program of its own, and uses some of this")]
 
+use render_check::cmd::sweep::{GROUPS, Summary, SweepRun, run_shots};
 use render_check::gpu::{Gpu, MapPass};
-use render_check::report::RunResult;
-use render_check::sweep::{GROUPS, Summary, SweepRun, run_shots};
+use render_check::run::RunResult;
 use render_check::verdict::Verdict;
 
 pub(crate) fn gpu() -> Gpu {

@@ -111,7 +111,7 @@ pub(crate) fn measure(size: Size, set: Set) -> Result<Vec<BodyRecord>> {
 
 /// For each arithmetic, the errors of all cases.
 fn errors(cases: &[Case], set: Set) -> Result<[Vec<Errors>; 6]> {
-    let progress = render_check::progress::bar(&format!("bodies, {} cases", set.name()), cases.len());
+    let progress = render_check::output::progress::bar(&format!("bodies, {} cases", set.name()), cases.len());
     let mut errors = Arithmetic::ALL.map(|_| Vec::with_capacity(cases.len()));
     for (index, case) in cases.iter().enumerate() {
         let truth = Truth::new(case);

@@ -180,7 +180,7 @@ pub(crate) fn measure(size: Size, set: Set, kind: Kind) -> Result<Vec<MatrixReco
         .collect::<Result<_>>()?;
 
     let what = format!("{} matrices, {} cases", kind.name(), set.name());
-    let progress = render_check::progress::bar(&what, cases.len());
+    let progress = render_check::output::progress::bar(&what, cases.len());
     let mut errors = Precision::ALL.map(|_| Vec::with_capacity(cases.len()));
     for case in &cases {
         for (errors, error) in errors.iter_mut().zip(errors_of(case)) {

@@ -12,7 +12,7 @@ use super::truth::Truth;
 use super::{library, naive, own};
 use crate::arbitrary::{LightParams, SceneParams, ViewParams, case, plane};
 use crate::size::Size;
-use render_check::progress::bar;
+use render_check::output::progress::bar;
 
 /// What became of one hard case.
 #[derive(Clone, Debug)]

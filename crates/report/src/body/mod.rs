@@ -41,7 +41,7 @@ use std::time::Duration;
 use anyhow::{Context as _, Result};
 use rand::SeedableRng as _;
 use rand::rngs::StdRng;
-use render_check::progress::bar;
+use render_check::output::progress::bar;
 use shadowfit::Scene;
 
 use crate::outdoors::{self, Kind};

@@ -3,12 +3,11 @@
 use std::time::Duration;
 
 use anyhow::{Context, Result};
-use render_check::fitted_maps::FittedMaps;
 use render_check::gpu::{Filter, Gpu, ShadowMaps, shadow_test};
-use render_check::run::Options;
+use render_check::maps::Technique;
+use render_check::run::{FittedMaps, Options};
 use render_check::scene::Mesh;
 use render_check::stage::Stage;
-use render_check::technique::Technique;
 use render_check::trace::Tracer;
 
 use super::cost::{Contender, Cost, Counted, Work, timed};

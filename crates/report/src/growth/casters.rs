@@ -4,7 +4,7 @@
 use std::hint::black_box;
 
 use anyhow::{Result, ensure};
-use render_check::technique::Technique;
+use render_check::maps::Technique;
 use shadowfit::{
     Focus, FocusForm, Scene, fit,
     plan::{Budget, Objects, plan},

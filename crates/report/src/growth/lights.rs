@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use anyhow::Result;
-use render_check::technique::Technique;
+use render_check::maps::Technique;
 use shadowfit::{
     Light, fit,
     plan::{Budget, Objects, plan},

@@ -24,7 +24,7 @@ mod write_up;
 
 use anyhow::{Context, Result};
 use render_check::gpu::Gpu;
-use render_check::progress::bar;
+use render_check::output::progress::bar;
 
 use crate::size::Size;
 use cost::Cost;

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use anyhow::{Result, ensure};
-use render_check::technique::Technique;
+use render_check::maps::Technique;
 use shadowfit::glam::DVec3;
 use shadowfit::{
     Focus, FocusForm, InputError, Scene, Settings,

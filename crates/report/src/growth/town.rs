@@ -3,7 +3,7 @@
 use anyhow::Result;
 use rand::rngs::StdRng;
 use rand::{RngExt as _, SeedableRng as _};
-use render_check::technique::Technique;
+use render_check::maps::Technique;
 use shadowfit::glam::{DVec3, Vec3};
 use shadowfit::{
     Aabb, InputError, Light, Scene, Settings, View, fit,

@@ -1,10 +1,8 @@
 //! What is compared: in each comparison one thing varies, and all else stays.
 
-use render_check::args::ClipArg;
 use render_check::gpu::{Bias, Filter};
+use render_check::maps::{ClipConvention, Slicing, SplitArg, Technique};
 use render_check::run::Options;
-use render_check::slicing::{Slicing, SplitArg};
-use render_check::technique::Technique;
 use render_check::trace::Faces;
 use shadowfit::DepthFormat;
 
@@ -122,7 +120,7 @@ pub fn comparisons(size: Size) -> Vec<Comparison> {
                 best,
                 Options { format: DepthFormat::Unorm16, ..best },
                 Options { format: DepthFormat::Float32, ..best },
-                Options { format: DepthFormat::Float32, clip: ClipArg::WgpuReversed, ..best },
+                Options { format: DepthFormat::Float32, clip: ClipConvention::WgpuReversed, ..best },
             ],
         },
         Comparison {

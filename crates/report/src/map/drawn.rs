@@ -4,15 +4,12 @@ use std::path::Path;
 use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
-use render_check::fitted_maps::FittedMaps;
-use render_check::fitting::NoMap;
-use render_check::frames::Frames;
-use render_check::framing::choose_view;
 use render_check::gpu::Gpu;
-use render_check::progress::bar;
-use render_check::run::{MapRun, Options, run};
+use render_check::maps::NoMap;
+use render_check::output::progress::bar;
+use render_check::run::{FittedMaps, Frames, MapRun, Options, run};
 use render_check::scene;
-use render_check::stage::{Stage, StageLight};
+use render_check::stage::{Stage, StageLight, choose_view};
 use render_check::trace::Tracer;
 use shadowfit::Settings;
 

@@ -1,6 +1,6 @@
 //! What was found, in sentences made from the figures.
 
-use render_check::technique::Technique;
+use render_check::maps::Technique;
 
 use super::Measured;
 use super::cases::{ALL_WARPS, FILTERS, FORMATS, KINDS, PLOTTED, SLICES_OF_SAME_SUM, TESTS};

@@ -1,6 +1,6 @@
 //! The chapter's plots.
 
-use render_check::technique::Technique;
+use render_check::maps::Technique;
 
 use super::Measured;
 use super::cases::{ALL_WARPS, KINDS, PLOTTED, SLICES_OF_SAME_SUM};

@@ -2,10 +2,9 @@
 
 use std::fmt;
 
-use render_check::args::ClipArg;
 use render_check::gpu::Filter;
+use render_check::maps::{ClipConvention, Technique};
 use render_check::run::Options;
-use render_check::technique::Technique;
 use render_check::trace::Faces;
 use serde::Serialize;
 use shadowfit::DepthFormat;
@@ -22,7 +21,7 @@ pub struct Contender {
     /// The depth buffer's format.
     pub format: &'static str,
     /// Whose clip space the matrix is for.
-    pub clip: ClipArg,
+    pub clip: ClipConvention,
     /// Which sides of triangles are drawn.
     pub faces: Faces,
     /// How the map is read.

@@ -1,6 +1,6 @@
 //! Means over all scenes and lights of a comparison, and what the settings that the report recommends are chosen by.
 
-use render_check::technique::Technique;
+use render_check::maps::Technique;
 
 use super::Measured;
 use super::cases::WARPS;

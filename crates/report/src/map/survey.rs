@@ -5,8 +5,8 @@ use std::convert::Infallible;
 use anyhow::{Context, Result};
 use rand::SeedableRng;
 use rand::rngs::StdRng;
-use render_check::progress::bar;
-use render_check::technique::Technique;
+use render_check::maps::Technique;
+use render_check::output::progress::bar;
 use serde::Serialize;
 use shadowfit::{Focus, Light, Scene, Settings, View, fit};
 

@@ -1,6 +1,6 @@
 //! The chapter's tables.
 
-use render_check::args::ClipArg;
+use render_check::maps::ClipConvention;
 use render_check::trace::Faces;
 
 use super::Measured;
@@ -203,7 +203,7 @@ pub(super) fn of_tests(measured: &Measured) -> Vec<Table> {
 
 /// A depth format in words.
 pub(super) fn format_name(contender: &Contender) -> String {
-    let reversed = if contender.clip == ClipArg::WgpuReversed { ", reversed" } else { "" };
+    let reversed = if contender.clip == ClipConvention::WgpuReversed { ", reversed" } else { "" };
     format!("{}{reversed}", contender.format)
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use render_check::technique::Technique;
+use render_check::maps::Technique;
 
 use super::cases::{ALL_WARPS, KINDS, comparisons};
 use super::{Measured, chapter, measure};

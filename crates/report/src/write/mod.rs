@@ -8,7 +8,7 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
-use render_check::opening::make_directory;
+use render_check::output::make_directory;
 
 use crate::chapter::{Chapter, Part, Plot, Raw};
 use crate::machine::Machine;

@@ -6,9 +6,7 @@ use std::f64::consts::PI;
 use shadowfit::glam::{DMat4, DQuat, DVec2, DVec3};
 
 use super::solids::{add_box, add_slab, add_turned};
-use crate::framing::Camera;
-use crate::light::LightSpec;
-use crate::scene::{LoadedScene, MeshBuilder};
+use crate::scene::{Camera, LightSpec, LoadedScene, MeshBuilder};
 
 /// Points towards the low sun, over the viewer's right shoulder.
 const DIRECTION_TO_SUN: DVec3 = DVec3::new(0.22, 0.22, 1.0);
@@ -227,7 +225,7 @@ fn add_upright(builder: &mut MeshBuilder, profile: &[(f64, f64)], foot: DVec3, c
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::Lens;
+    use crate::trace::Lens;
 
     #[test]
     fn the_square_reaches_from_behind_the_viewer_to_beyond_the_wall() {

@@ -4,9 +4,7 @@
 use shadowfit::glam::{DMat4, DVec2, DVec3};
 
 use super::solids::{add_box, add_cut_out, add_turned};
-use crate::framing::Camera;
-use crate::light::LightSpec;
-use crate::scene::{LoadedScene, MeshBuilder};
+use crate::scene::{Camera, LightSpec, LoadedScene, MeshBuilder};
 
 const FILES: u32 = 8;
 const RANKS: u32 = 24;

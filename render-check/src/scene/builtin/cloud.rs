@@ -6,9 +6,7 @@ use std::f64::consts::TAU;
 use shadowfit::glam::{DMat4, DVec3};
 
 use super::solids::scattered;
-use crate::framing::Camera;
-use crate::light::LightSpec;
-use crate::scene::{LoadedScene, MeshBuilder};
+use crate::scene::{Camera, LightSpec, LoadedScene, MeshBuilder};
 
 /// Points along each side of the ground, and how far they are apart.
 const SIDE: u32 = 60;

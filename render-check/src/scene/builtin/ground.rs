@@ -2,9 +2,7 @@
 
 use shadowfit::glam::{DMat4, DVec3, Vec3};
 
-use crate::framing::Camera;
-use crate::light::LightSpec;
-use crate::scene::{LoadedScene, MeshBuilder, Part};
+use crate::scene::{Camera, LightSpec, LoadedScene, MeshBuilder, Part};
 
 /// Half of the plate's width and length.
 const HALF_SIZE: f64 = 20.0;

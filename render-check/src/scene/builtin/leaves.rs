@@ -4,9 +4,7 @@
 use shadowfit::glam::{DMat4, DVec2, DVec3};
 
 use super::solids::{add_bars, add_boxes, add_turned, scattered};
-use crate::framing::Camera;
-use crate::light::LightSpec;
-use crate::scene::{LoadedScene, MeshBuilder, Part};
+use crate::scene::{Camera, LightSpec, LoadedScene, MeshBuilder, Part};
 
 const BRANCHES: u32 = 8;
 const TWIGS: u32 = 5;

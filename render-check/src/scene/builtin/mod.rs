@@ -10,7 +10,7 @@ mod solids;
 mod street;
 mod table;
 
-use super::LoadedScene;
+use super::loaded::LoadedScene;
 
 /// A built-in scene.
 #[derive(Clone, Copy)]

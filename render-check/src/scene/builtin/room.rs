@@ -4,9 +4,7 @@
 use shadowfit::glam::{DMat4, DVec2, DVec3};
 
 use super::solids::{add_board_with_opening, add_box, add_turned};
-use crate::framing::Camera;
-use crate::light::LightSpec;
-use crate::scene::{LoadedScene, MeshBuilder};
+use crate::scene::{Camera, LightSpec, LoadedScene, MeshBuilder};
 
 const HALF_WIDTH: f64 = 3.0;
 const LENGTH: f64 = 5.0;
@@ -208,7 +206,7 @@ fn add_profile(builder: &mut MeshBuilder, profile: &[(f64, f64)], foot: DVec3, c
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::Lens;
+    use crate::trace::Lens;
 
     #[test]
     fn the_room_is_closed_around_the_camera() {

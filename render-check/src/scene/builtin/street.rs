@@ -6,9 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 use shadowfit::glam::{DMat4, DVec2, DVec3};
 
 use super::solids::{add_bars, add_boxes, add_cut_out, add_turned, scattered};
-use crate::framing::Camera;
-use crate::light::LightSpec;
-use crate::scene::{LoadedScene, MeshBuilder};
+use crate::scene::{Camera, LightSpec, LoadedScene, MeshBuilder};
 
 /// The z coordinates between which there are houses, lamps and trees.
 const NEAR_END: f64 = 14.0;

@@ -4,9 +4,7 @@
 use shadowfit::glam::{DMat4, DVec2, DVec3};
 
 use super::solids::{add_box, add_boxes, add_turned};
-use crate::framing::Camera;
-use crate::light::LightSpec;
-use crate::scene::{LoadedScene, MeshBuilder};
+use crate::scene::{Camera, LightSpec, LoadedScene, MeshBuilder};
 
 /// Half of the floor's width and length.
 const HALF_FLOOR: f64 = 2.5;

@@ -4,11 +4,8 @@ use shadowfit::{View, mesh::Solidity};
 
 use super::solids::open_edges;
 use super::*;
-use crate::framing::Camera;
-use crate::light::LightSpec;
-use crate::picture::Lens;
-use crate::scene::Object;
-use crate::trace::{Hit, Ray, Tracer};
+use crate::scene::{Camera, LightSpec, Object};
+use crate::trace::{Hit, Lens, Ray, Tracer};
 
 mod coincidence;
 

@@ -1,0 +1,203 @@
+//! The commands, a module each with its arguments, and the command line as a whole.
+
+pub mod ablation;
+pub mod check;
+pub mod draw;
+pub mod plan;
+pub mod sweep;
+pub mod walk;
+
+use anyhow::Result;
+use clap::{Parser, Subcommand};
+
+use ablation::AblationArgs;
+use check::CheckArgs;
+use draw::DrawArgs;
+use plan::PlanArgs;
+use sweep::SweepArgs;
+use walk::WalkArgs;
+
+use crate::cli::{LIGHTS, scenes};
+
+/// Command lines, and what each is for.
+const EXAMPLES: &str = "\
+Examples:
+  render-check
+      the built-in chess board under a sun, a lamp and a spot: needs no file at all
+  render-check street --technique uniform --technique psm --size 512 --size 2048
+      another built-in scene, two techniques, two sizes of map
+  render-check sponza.glb --eye -11.5,2,-0.3 --target 8,4.5,0 --fov 75 --light sun:0.15,1,0.25
+      a file, a camera and a sun of your own
+  render-check room.glb --light point:0,2.4,0/12 --light spot:3,3,0/0,0,0/50 --filter pcf3
+      a lamp that reaches 12 units and a spot with a cone of 50 degrees, read with 3 x 3 texels
+  render-check room --light point:0,1.5,-2.5 --technique cube --technique cube-psm
+      a lamp among what it lights: a map for each face of the cube around it
+  render-check draw city.glb --near 1 --far inf --size 2048
+      only the fit and its pictures, by ray casting: needs no graphics driver
+  render-check street --slices 1 --slices 4 --technique uniform --technique best
+      a map for each slice of the view
+  render-check walk street --steps 48
+      a camera that walks, and the pixels that flicker
+  render-check sweep
+      the hard cases: lights through the camera's plane, every clip space, scenes of any size";
+
+/// Draws scenes with fitted shadow maps on a graphics card and compares every pixel with ray-traced truth.
+///
+/// Without a command it checks one scene: every light, with each technique and size of map.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "render-check", version, max_term_width = 110, args_conflicts_with_subcommands = true)]
+#[command(after_help = format!("{EXAMPLES}\n\n{}\n\n{LIGHTS}\n\n{}", scenes(), check::HELP))]
+pub struct Args {
+    /// What to do, if not to check a scene.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+
+    /// What to check.
+    #[command(flatten)]
+    pub check: CheckArgs,
+}
+
+/// What there is to do besides checking a scene.
+#[derive(Clone, Debug, Subcommand)]
+pub enum Command {
+    /// Fits and draws by ray casting, without a graphics card: H, what the light sees, what the maps hold
+    #[command(after_help = format!("{}\n\n{LIGHTS}\n\n{}", scenes(), draw::HELP))]
+    Draw(DrawArgs),
+    /// Walks the camera and counts the pixels that flicker
+    #[command(after_help = format!("{}\n\n{LIGHTS}\n\n{}", scenes(), walk::HELP))]
+    Walk(WalkArgs),
+    /// Checks the hard cases, all of them
+    #[command(after_help = sweep::HELP)]
+    Sweep(SweepArgs),
+    /// Plans all lights, the least that is enough for each, draws what the plan says and checks it
+    #[command(after_help = format!("{}\n\n{LIGHTS}\n\n{}", scenes(), crate::cmd::plan::HELP))]
+    Plan(PlanArgs),
+    /// Draws what a plan leaves out or asks for with it and without it, and holds both against the truth
+    #[command(after_help = crate::cmd::ablation::HELP)]
+    Ablation(AblationArgs),
+}
+
+impl Args {
+    /// Does what they ask for.
+    ///
+    /// # Errors
+    ///
+    /// Those of the command.
+    pub fn run(&self) -> Result<()> {
+        match &self.command {
+            None => check::check(&self.check),
+            Some(Command::Draw(args)) => draw::draw(args),
+            Some(Command::Walk(args)) => walk::walk(args),
+            Some(Command::Sweep(args)) => sweep::sweep(args),
+            Some(Command::Plan(args)) => plan::plan(args),
+            Some(Command::Ablation(args)) => ablation::ablation(args),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+    use shadowfit::ClipSpace;
+    use shadowfit::glam::DVec3;
+
+    use super::*;
+    use crate::cli::FormatArg;
+    use crate::gpu::{Bias, Filter};
+    use crate::maps::Technique;
+    use crate::trace::Faces;
+
+    #[test]
+    fn the_command_is_sound() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn no_argument_is_enough() {
+        let args = Args::parse_from(["render-check"]);
+        assert!(args.command.is_none());
+        let CheckArgs { view, map, narrow, at, close_up, frames } = args.check;
+        assert!(
+            !narrow
+                && at.is_none()
+                && close_up.is_none()
+                && view.lights.is_empty()
+                && view.eye.is_none()
+                && map.techniques.is_empty()
+        );
+        assert_eq!((view.scene, view.width, view.height, frames), ("chess-board".into(), 960, 600, 3));
+    }
+
+    #[test]
+    fn negative_numbers_are_values_not_options() {
+        let line = "render-check a.glb --eye -1,2,-3 --target -4,5,6 --light sun:-1,1,0 --far inf --bias -2,-0.5";
+        let args = Args::parse_from(line.split_whitespace()).check;
+        assert_eq!(args.view.eye, Some(DVec3::new(-1.0, 2.0, -3.0)));
+        assert_eq!(args.view.target, Some(DVec3::new(-4.0, 5.0, 6.0)));
+        assert_eq!(args.view.far, Some(f64::INFINITY));
+        assert_eq!(args.view.lights.len(), 1);
+        assert_eq!(args.map.bias, Some(Bias { constant: -2, slope: -0.5 }));
+    }
+
+    #[test]
+    fn every_example_in_the_help_is_a_command() {
+        let commands: Vec<_> = EXAMPLES.lines().filter(|line| line.starts_with("  render-check")).collect();
+        assert_eq!(commands.len(), 9);
+        for command in commands {
+            Args::try_parse_from(command.split_whitespace()).expect(command);
+        }
+    }
+
+    #[test]
+    fn maps_are_described_by_words() {
+        let line = "render-check --technique psm --technique uniform --size 256 --size 512 --format unorm16 \
+                    --faces back --filter pcf5 --clip opengl-reversed";
+        let map = Args::parse_from(line.split_whitespace()).check.map;
+        assert_eq!(map.techniques, [Technique::Psm, Technique::Uniform]);
+        assert_eq!(map.sizes, [256, 512]);
+        assert_eq!((map.format, map.faces), (FormatArg::Unorm16, Faces::Back));
+        assert_eq!(map.filter, Filter::Pcf(5));
+        assert_eq!(ClipSpace::from(map.clip), ClipSpace::OPENGL.reversed());
+    }
+
+    #[test]
+    fn depth_tests_are_described_by_words() {
+        let line = "render-check table --faces second --filter virtual3";
+        let map = Args::parse_from(line.split_whitespace()).check.map;
+        assert_eq!((map.faces, map.filter), (Faces::Second, Filter::Virtual(3)));
+        assert_eq!(map.filter.to_string(), "virtual3");
+    }
+
+    #[test]
+    fn wrong_values_are_refused() {
+        for wrong in [
+            "--eye 1,2",
+            "--target 1,2,3",
+            "--fov 180",
+            "--near 0",
+            "--far -3",
+            "--size 1",
+            "--light sun",
+            "--filter pcf1",
+            "--filter pcf",
+            "--filter virtual0",
+            "--bias 3",
+            "--bias 1,NaN",
+            "--technique lispsm",
+            "--slices 0",
+            "--slices 9",
+            "--slices 2 --split blended",
+            "--split log",
+            "--close-up 1,2",
+            "--close-up 1,2,0",
+            "draw --technique lispsm",
+            "--near inf",
+            "--lamp-near inf",
+            "walk --pace inf",
+            "walk --turn nan",
+        ] {
+            let line = format!("render-check {wrong}");
+            assert!(Args::try_parse_from(line.split_whitespace()).is_err(), "{wrong:?}");
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! One camera before one scene, to be drawn in a sweep.
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use shadowfit::{Origin, View};
+
+use super::lights::NamedLight;
+use crate::maps::Technique;
+use crate::run::Options;
+use crate::scene::{self, Camera, LoadedScene};
+use crate::stage::choose_view;
+use crate::trace::Tracer;
+
+/// Width and height of the pictures, in pixels, where a group has no need of smaller ones.
+pub const IMAGE: [u32; 2] = [240, 150];
+
+/// Texels a side of the maps, where their size is not what is swept.
+pub(super) const MAP_SIZE: u32 = 512;
+
+/// No warp, a warp along the view, and any warp in any window: enough where warps are not what is swept.
+pub(super) const EXTREMES: [Technique; 3] = [Technique::Uniform, Technique::Psm, Technique::Best];
+
+/// One camera before one scene, under some lights, each through some maps.
+pub struct Shot {
+    /// What is special about it.
+    pub name: String,
+    /// The scene.
+    pub scene: LoadedScene,
+    /// The camera.
+    pub view: View,
+    /// Width and height of the picture, in pixels.
+    pub image: [u32; 2],
+    /// What the maps' matrices take positions relative to.
+    pub origin: Origin,
+    /// The lights, and what is special about them.
+    pub lights: Vec<NamedLight>,
+    /// The maps.
+    pub options: Vec<Options>,
+}
+
+impl Shot {
+    /// How many runs it has.
+    #[must_use]
+    pub fn runs(&self) -> usize {
+        self.lights.len() * self.options.len()
+    }
+
+    pub(super) fn with_options(self, options: Vec<Options>) -> Self {
+        Self { options, ..self }
+    }
+
+    /// With every kind of warp.
+    pub(super) fn warped(self) -> Self {
+        self.with_options(Technique::WARPS.map(|technique| Options::new(technique, MAP_SIZE)).to_vec())
+    }
+
+    /// And with texels that stay where they are.
+    pub(super) fn and_stable(mut self) -> Self {
+        self.options.push(Options::new(Technique::Stable, MAP_SIZE));
+        self
+    }
+}
+
+/// A camera in a scene, before its planes are chosen.
+pub(super) struct Stand {
+    pub(super) scene: LoadedScene,
+    pub(super) camera: Camera,
+}
+
+impl Stand {
+    pub(super) fn built_in(name: &str) -> Result<Self> {
+        Self::before(scene::load(Path::new(name))?)
+    }
+
+    pub(super) fn before(scene: LoadedScene) -> Result<Self> {
+        let camera = scene.camera.with_context(|| format!("the scene '{}' has no camera", scene.name))?;
+        Ok(Self { scene, camera })
+    }
+
+    pub(super) fn with_planes(mut self, near: f64, far: f64) -> Self {
+        (self.camera.near, self.camera.far) = (Some(near), Some(far));
+        self
+    }
+
+    pub(super) fn shot(self, name: &str, lights: impl FnOnce(&View) -> Vec<NamedLight>) -> Result<Shot> {
+        let aspect = f64::from(IMAGE[0]) / f64::from(IMAGE[1]);
+        let view = choose_view(&self.camera, aspect, &Tracer::new(&self.scene.mesh)?)?.0;
+        let options = Technique::COMPARED.map(|technique| Options::new(technique, MAP_SIZE)).to_vec();
+        let (name, lights) = (name.to_owned(), lights(&view));
+        Ok(Shot { name, lights, scene: self.scene, view, image: IMAGE, origin: Origin::Eye, options })
+    }
+
+    pub(super) fn own_lights(self, name: &str) -> Result<Shot> {
+        let lights = self.scene.lights.iter().map(|light| (light.kind().to_owned(), *light)).collect();
+        self.shot(name, |_| lights)
+    }
+}
+
+/// The chess board.
+pub(super) fn chess_board() -> Result<Stand> {
+    Stand::built_in("chess-board")
+}
+
+/// The same under its own lights.
+pub(super) fn lit_chess_board() -> Result<Shot> {
+    chess_board()?.own_lights("chess board")
+}

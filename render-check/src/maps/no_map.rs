@@ -1,0 +1,36 @@
+//! Fits without a map.
+
+use std::fmt;
+
+use shadowfit::{Empty, Outcome, ShadowMap, Surrounded};
+
+/// The fit's answer where there is no map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoMap {
+    /// None is needed.
+    Empty(Empty),
+    /// No single one will do.
+    Surrounded(Surrounded),
+}
+
+impl fmt::Display for NoMap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty(empty) => empty.fmt(f),
+            Self::Surrounded(surrounded) => surrounded.fmt(f),
+        }
+    }
+}
+
+/// The map of a fit, or why there is none.
+///
+/// # Errors
+///
+/// Where there is none.
+pub fn map_or_reason(outcome: Outcome) -> Result<ShadowMap, NoMap> {
+    match outcome {
+        Outcome::Map(map) => Ok(map),
+        Outcome::Empty(empty) => Err(NoMap::Empty(empty)),
+        Outcome::Surrounded(surrounded) => Err(NoMap::Surrounded(surrounded)),
+    }
+}

@@ -1,0 +1,9 @@
+//! What goes to the terminal and into files.
+
+mod files;
+mod lines;
+pub mod progress;
+pub mod table;
+
+pub use files::{make_directory, write_json};
+pub use lines::{complain, say};

@@ -1,0 +1,333 @@
+//! The maps of one light, fitted as a renderer fits them: one for each part of the light that needs one.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use anyhow::{Context, Result, ensure};
+use serde::Serialize;
+use shadowfit::glam::DVec3;
+use shadowfit::{
+    Empty, Focus, FocusForm, Light, Outcome, Settings, ShadowMap,
+    focus::{ConvexBody, Plane},
+    omni::{CubeFace, Paraboloids},
+};
+
+use super::cut::{Cut, Cutting};
+use super::options::Options;
+use crate::gpu::{Geometry, MapDraw, MapPass, ShadowMaps};
+use crate::maps::{Layout, NoMap, Split, map_or_reason, slices};
+use crate::scene::{Mesh, Object};
+use crate::stage::Stage;
+
+/// A map, and the casters that belong in it.
+#[derive(Clone, Debug)]
+pub struct FittedMap {
+    /// The map.
+    pub map: Layout,
+    /// How it is drawn.
+    pub pass: MapPass,
+    /// The mesh's objects that are drawn into it, those that meet H.
+    pub objects: Vec<usize>,
+}
+
+impl FittedMap {
+    /// Fits a frustum as a renderer does, after that of the frame before, if there is one, and culls the casters against H;
+    /// or says why there is no map.
+    fn new(
+        stage: &Stage<'_>,
+        focus: &Focus<'_>,
+        options: &Options,
+        before: Option<&ShadowMap>,
+    ) -> Result<Result<Self, NoMap>> {
+        let map = match map_or_reason(fitted(focus, before, &options.settings(stage)?)) {
+            Ok(map) => Layout::Frustum(map),
+            Err(none) => return Ok(Err(none)),
+        };
+        let objects = casters(stage, &focus.caster_volume(FocusForm::ReceiverHull), |_| true);
+        Ok(Ok(Self { map, pass: options.pass(&map)?, objects }))
+    }
+}
+
+/// Fits a frustum, after that of the frame before, if there is one.
+fn fitted(focus: &Focus<'_>, before: Option<&ShadowMap>, settings: &Settings) -> Outcome {
+    before.map_or_else(|| focus.fit(settings), |before| focus.fit_warm(before, settings))
+}
+
+/// The objects that meet a body and are no others.
+fn casters(stage: &Stage<'_>, body: &ConvexBody, is_other: impl Fn(&Object) -> bool) -> Vec<usize> {
+    let objects = stage.tracer.mesh().objects.iter().enumerate();
+    let meets = |object: &Object| body.intersects_aabb(object.min, object.max) && is_other(object);
+    objects.filter(|(_, object)| meets(object)).map(|(index, _)| index).collect()
+}
+
+/// Whether any of an object's box is before a plane, or behind it by no more than a distance.
+fn is_before(plane: &Plane, behind: f64, object: &Object) -> bool {
+    let farthest = DVec3::select(plane.normal.cmpgt(DVec3::ZERO), object.max, object.min);
+    plane.at(farthest) >= -behind
+}
+
+/// The maps of a light.
+#[derive(Clone, Debug)]
+pub struct FittedMaps {
+    /// Which map answers for which points.
+    pub split: Split,
+    /// The part of the light that each frustum is for; for paraboloids, the light.
+    pub lights: Vec<Light>,
+    /// One for each part of the split; `None` for a part that needs none.
+    pub maps: Vec<Option<FittedMap>>,
+    /// The casters as they are drawn into paraboloids, where they are cut.
+    pub cut: Option<Arc<Cut>>,
+}
+
+/// What culling against H left to draw, over all maps.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Drawn {
+    /// Objects drawn; those in several maps count in each.
+    pub objects: usize,
+    /// Objects there are.
+    pub of_objects: usize,
+    /// Triangles drawn, as they are cut; those in several maps count in each.
+    pub triangles: usize,
+    /// Triangles there are before any cut.
+    pub of_triangles: usize,
+    /// How long it took to cut them for paraboloids, in milliseconds; nothing where they are not cut.
+    pub cut_ms: Option<f64>,
+}
+
+impl FittedMaps {
+    /// Fits each part of the light; or says why there is no map at all.
+    ///
+    /// # Errors
+    ///
+    /// When the settings cannot be used, or casters cannot be cut.
+    pub fn new(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
+        Self::after(None, stage, light, options)
+    }
+
+    /// The same after those of the frame before, if there are any.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub fn after(
+        before: Option<&Self>,
+        stage: &Stage<'_>,
+        light: &Light,
+        options: &Options,
+    ) -> Result<Result<Self, NoMap>> {
+        let is_paraboloid = options.technique.is_paraboloid();
+        ensure!(
+            options.slicing.is_none() || !(is_paraboloid || options.technique.has_faces()),
+            "slices have a frustum each: '{}' takes no --slices",
+            options.technique
+        );
+        if is_paraboloid && light.position().is_some() {
+            return Self::paraboloids(stage, light, options);
+        }
+        let (split, lights) = parts(stage, light, options)?;
+        let mut maps = Vec::new();
+        let mut reason = NoMap::Empty(Empty::NoReceivers);
+        for (part, focus) in foci(stage, &split, &lights).iter().enumerate() {
+            match FittedMap::new(stage, focus, options, before.and_then(|before| before.frustum(part)))? {
+                Ok(map) => maps.push(Some(map)),
+                Err(none @ NoMap::Surrounded(_)) => return Ok(Err(none)),
+                Err(none) => {
+                    // Where one part has something to shade, nothing casts on it is what the light as a whole says.
+                    if none == NoMap::Empty(Empty::NoCasters) {
+                        reason = none;
+                    }
+                    maps.push(None);
+                }
+            }
+        }
+        if maps.iter().all(Option::is_none) {
+            return Ok(Err(reason));
+        }
+        Ok(Ok(Self::of(stage, split, lights, maps, options.cut)?))
+    }
+
+    fn paraboloids(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
+        let focus = Focus::new(&stage.fitted_view, light, &stage.bounds);
+        let settings = options.settings(stage)?;
+        let fitted = focus.paraboloids(&settings);
+        let split = match &fitted {
+            Paraboloids::Empty(empty) => return Ok(Err(NoMap::Empty(*empty))),
+            Paraboloids::Two([map, _]) => Split::halves(map.position(), map.axis()),
+            Paraboloids::One(_) | Paraboloids::Directional => Split::whole(),
+        };
+        let body = focus.caster_volume(FocusForm::ReceiverHull);
+        let (min, max) = stage.tracer.bounds();
+        let mut maps = Vec::new();
+        for map in fitted.maps() {
+            let reach = (max - min).length() + map.far();
+            // As far behind the light as the border shows.
+            let square = f64::from(map.clip_scale().length_squared()) / 2.0;
+            let behind = (1.0 - square) / (1.0 + square) * reach;
+            let objects = casters(stage, &body, |object| is_before(&map.clip_plane(), behind, object));
+            let map = Layout::Paraboloid(*map);
+            maps.push(Some(FittedMap { map, pass: options.pass(&map)?, objects }));
+        }
+        Ok(Ok(Self::of(stage, split, vec![*light], maps, options.cut)?))
+    }
+
+    /// Of maps that were fitted before, one for each part of a split; cuts what is drawn into paraboloids.
+    ///
+    /// # Errors
+    ///
+    /// When casters cannot be cut, or the card has no room for them.
+    pub fn of(
+        stage: &Stage<'_>,
+        split: Split,
+        lights: Vec<Light>,
+        maps: Vec<Option<FittedMap>>,
+        cutting: Cutting,
+    ) -> Result<Self> {
+        let (mesh, origin) = (stage.tracer.mesh(), stage.geometry.origin());
+        let mut is_drawn = vec![false; mesh.objects.len()];
+        for &object in maps.iter().flatten().flat_map(|map| &map.objects) {
+            is_drawn[object] = true;
+        }
+        // The other hemisphere's map bends edges alike.
+        let cut = match maps.iter().flatten().next().map(|map| &map.map) {
+            Some(Layout::Paraboloid(map)) => Cut::new(stage.gpu, origin, mesh, &is_drawn, map, cutting)?,
+            _ => None,
+        };
+        Ok(Self { split, lights, maps, cut: cut.map(Arc::new) })
+    }
+
+    /// The matrix's map of a part of the light, if it has one.
+    #[must_use]
+    pub fn frustum(&self, part: usize) -> Option<&ShadowMap> {
+        match &self.maps.get(part)?.as_ref()?.map {
+            Layout::Frustum(map) => Some(map),
+            Layout::Paraboloid(_) => None,
+        }
+    }
+
+    /// Whether any of the maps was found elsewhere than at the one of the frame before, see [`ShadowMap::jumped`].
+    #[must_use]
+    pub fn jumped(&self) -> bool {
+        (0..self.maps.len()).filter_map(|part| self.frustum(part)).any(ShadowMap::jumped)
+    }
+
+    /// What the map of each part was fitted to; of paraboloids all that both were.
+    #[must_use]
+    pub fn foci(&self, stage: &Stage<'_>) -> Vec<Focus<'static>> {
+        foci(stage, &self.split, &self.lights)
+    }
+
+    /// Fits all again, after those of the frame before, if there are any, for the time that it takes; how many maps there
+    /// are.
+    #[must_use]
+    pub fn fit_again(&self, before: Option<&Self>, stage: &Stage<'_>, settings: &Settings) -> usize {
+        let is_paraboloid = self.maps.iter().flatten().any(|map| matches!(map.map, Layout::Paraboloid(_)));
+        let maps = |part: usize, focus: &Focus<'_>| {
+            if is_paraboloid {
+                focus.paraboloids(settings).maps().len()
+            } else {
+                let before = before.and_then(|before| before.frustum(part));
+                usize::from(fitted(focus, before, settings).map().is_some())
+            }
+        };
+        let view = &stage.fitted_view;
+        if let (Split::Depths { cuts, .. }, [light]) = (&self.split, &self.lights[..]) {
+            let slices = slices(view, light, &stage.bounds, *cuts);
+            return slices
+                .map_or(0, |slices| (0..).zip(&*slices).map(|(part, slice)| maps(part, &slice.focus)).sum());
+        }
+        let of_light = |(part, light)| maps(part, &Focus::new(view, light, &stage.bounds));
+        self.lights.iter().enumerate().map(of_light).sum()
+    }
+
+    /// Draws the casters.
+    ///
+    /// # Errors
+    ///
+    /// When the card refuses.
+    pub fn draw(&self, stage: &Stage<'_>) -> Result<ShadowMaps> {
+        let casters = self.casters_of_all(stage);
+        ShadowMaps::draw(stage.gpu, self.geometry(stage), &self.split, &self.draws(&casters))
+    }
+
+    /// Draws the casters again, where they were drawn before.
+    ///
+    /// # Errors
+    ///
+    /// When the card refuses.
+    pub fn draw_again(&self, stage: &Stage<'_>, shadow_maps: &mut ShadowMaps) -> Result<()> {
+        let casters = self.casters_of_all(stage);
+        shadow_maps.draw_again(stage.gpu, self.geometry(stage), &self.draws(&casters))
+    }
+
+    /// What is drawn for each part.
+    fn draws<'a>(&self, casters: &'a [Vec<Range<u32>>]) -> Vec<Option<MapDraw<'a>>> {
+        let of = |(map, casters): (&Option<FittedMap>, &'a Vec<_>)| {
+            map.as_ref().map(|FittedMap { map, pass, .. }| MapDraw { map: *map, casters, pass: *pass })
+        };
+        self.maps.iter().zip(casters).map(of).collect()
+    }
+
+    /// The triangles of what is drawn for each part.
+    fn casters_of_all(&self, stage: &Stage<'_>) -> Vec<Vec<Range<u32>>> {
+        let of = |map: &Option<FittedMap>| map.as_ref().map(|map| self.casters(stage, map)).unwrap_or_default();
+        self.maps.iter().map(of).collect()
+    }
+
+    /// What is drawn of, on the card.
+    fn geometry<'a>(&'a self, stage: &'a Stage<'a>) -> &'a Geometry {
+        self.cut.as_ref().map_or(&stage.geometry, |cut| &cut.geometry)
+    }
+
+    /// The triangles of what is drawn into a map.
+    fn casters(&self, stage: &Stage<'_>, map: &FittedMap) -> Vec<Range<u32>> {
+        let mesh = self.mesh(stage);
+        map.objects.iter().map(|&object| mesh.objects[object].triangles.clone()).collect()
+    }
+
+    /// What is drawn of.
+    fn mesh<'a>(&'a self, stage: &Stage<'a>) -> &'a Mesh {
+        self.cut.as_ref().map_or(stage.tracer.mesh(), |cut| &cut.mesh)
+    }
+
+    /// What belongs in the maps.
+    #[must_use]
+    pub fn drawn(&self, stage: &Stage<'_>) -> Drawn {
+        let casters = || self.maps.iter().flatten().flat_map(|map| self.casters(stage, map));
+        Drawn {
+            objects: casters().count(),
+            of_objects: stage.tracer.mesh().objects.len(),
+            triangles: casters().map(|triangles| triangles.len()).sum(),
+            of_triangles: stage.tracer.mesh().triangles.len(),
+            cut_ms: self.cut.as_ref().map(|cut| cut.time.as_secs_f64() * 1e3),
+        }
+    }
+}
+
+/// The parts of a light that have a map each, and which points belong to which; one light for all slices. A light that needs
+/// no cube around it, a sun or a spot, has one map whatever the technique.
+fn parts(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<(Split, Vec<Light>)> {
+    if let Some(slicing) = options.slicing {
+        let cuts = slicing.cuts(options.technique.stays_put());
+        let slices = slices(&stage.fitted_view, light, &stage.bounds, cuts)?;
+        return Ok((Split::slices(cuts, slices), vec![*light]));
+    }
+    let overlap = CubeFace::overlap(options.filter.reach(), options.map_size, options.border());
+    match light.position() {
+        Some(position) if options.technique.has_faces() && light.cube_face(CubeFace::PositiveX, 0.0).is_ok() => {
+            let faces = CubeFace::ALL.map(|face| light.cube_face(face, overlap));
+            let lights = faces.into_iter().collect::<Result<_, _>>().context("the light has no faces")?;
+            Ok((Split::cube(position), lights))
+        }
+        _ => Ok((Split::whole(), vec![*light])),
+    }
+}
+
+/// What the map of each part is fitted to.
+fn foci(stage: &Stage<'_>, split: &Split, lights: &[Light]) -> Vec<Focus<'static>> {
+    match split {
+        Split::Directions { .. } => {
+            lights.iter().map(|light| Focus::new(&stage.fitted_view, light, &stage.bounds)).collect()
+        }
+        Split::Depths { slices, .. } => slices.iter().map(|slice| slice.focus.clone()).collect(),
+    }
+}

@@ -1,0 +1,44 @@
+//! What the fit says of maps before anything is drawn, and what no maps could be better than.
+
+use serde::Serialize;
+use shadowfit::{Focus, Light, Settings};
+
+use super::fitted_maps::FittedMaps;
+use crate::stage::Stage;
+
+/// How much larger a texel is than a pixel, see [`shadowfit::ShadowMap::aliasing`], at worst over all that may be visible.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Prediction {
+    /// What it is somewhere, the largest over all maps; nothing for paraboloids.
+    pub predicted: Option<f64>,
+    /// What it is nowhere more than.
+    pub predicted_at_most: Option<f64>,
+    /// What it would be at least, however the texels of all these maps were spread.
+    pub limit: f64,
+}
+
+impl Prediction {
+    /// Of the maps of a light.
+    #[must_use]
+    pub fn new(fitted: &FittedMaps, stage: &Stage<'_>, light: &Light) -> Self {
+        let foci = fitted.foci(stage);
+        let worst = foci.iter().enumerate().filter_map(|(part, focus)| {
+            let worst = fitted.frustum(part)?.aliasing_over(focus)?;
+            Some((worst.worst, worst.upper_bound))
+        });
+        let worst = worst.reduce(|one, other| (one.0.max(other.0), one.1.max(other.1)));
+        let settings = fitted.maps.iter().flatten().next().map(|map| *map.map.settings());
+        let maps = fitted.maps.iter().flatten().count();
+        Self {
+            predicted: worst.map(|(worst, _)| worst),
+            predicted_at_most: worst.map(|(_, at_most)| at_most),
+            limit: settings.map_or(0.0, |settings| limit(stage, light, &settings, maps)),
+        }
+    }
+}
+
+/// The limit for all of a light with the texels of so many maps: it goes with one over the root of their number.
+fn limit(stage: &Stage<'_>, light: &Light, settings: &Settings, maps: usize) -> f64 {
+    let focus = Focus::new(&stage.fitted_view, light, &stage.bounds);
+    focus.aliasing_lower_bound(settings) / (maps as f64).sqrt()
+}

@@ -1,0 +1,12 @@
+//! What every question about a pixel needs.
+
+use super::rendered::Rendered;
+use super::truth::TruthImage;
+use crate::trace::Tracer;
+
+/// All that it takes to judge a pixel.
+pub(super) struct Comparison<'a> {
+    pub(super) truth: &'a TruthImage,
+    pub(super) rendered: &'a Rendered<'a>,
+    pub(super) tracer: &'a Tracer<'a>,
+}
