@@ -33,7 +33,7 @@ cargo test "${all[@]}"
 same=(--lib --test bits --test conventions --test errors --test properties --test snapshots)
 for features in std libm; do
     step "tests, features: $features"
-    cargo check --package shadowfit --lib --tests --examples --no-default-features --features "$features"
+    cargo check --package shadowfit --lib --tests --no-default-features --features "$features"
     cargo test --package shadowfit --no-default-features --features "$features" "${same[@]}"
 done
 

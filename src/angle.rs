@@ -133,3 +133,6 @@ fn arctangent(y: f64, x: f64) -> f64 {
 fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
 }
+
+#[cfg(test)]
+mod tests;

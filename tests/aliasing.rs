@@ -2,10 +2,7 @@
 
 #![allow(clippy::disallowed_methods, reason = "closed forms and random cases, no part of a fit")]
 
-mod arbitrary;
-
 use approx::assert_relative_eq;
-use arbitrary::{Together, case, points_of, run, settings};
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 use rand::rngs::StdRng;
@@ -13,6 +10,7 @@ use rand::{RngExt, SeedableRng};
 use shadowfit::{
     Aabb, Focus, Light, Scene, Settings, ShadowMap, View, Warp, focus::ConvexBody, map::Aliasing, warp::Shift,
 };
+use testkit::arbitrary::{Together, case, points_of, run, settings};
 
 /// The aliasing at a point of R, which rounding may leave before the near plane by some of its distance: not by more,
 /// where coordinates are large against it.

@@ -4,14 +4,11 @@
 
 #![allow(clippy::disallowed_methods, reason = "angles spread the cases, they are no part of a fit")]
 
-mod arbitrary;
-mod claims;
-
-use arbitrary::{FORMS, following, run};
-use claims::rays::projected;
 use glam::DVec3;
 use proptest::prelude::*;
 use shadowfit::{Focus, Light, Scene, Settings, ShadowMap, View};
+use testkit::arbitrary::{FORMS, following, run};
+use testkit::claims::rays::projected;
 
 /// The numbers that a set-up is made of, by what they are.
 #[rustfmt::skip]

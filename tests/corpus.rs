@@ -3,13 +3,10 @@
 //! `fuzz/run.sh SECONDS` finds more of them. Those of the target `focus` go through the exact oracle, with it
 //! (`cargo test --test oracle corpus`).
 
-mod arbitrary;
-mod claims;
-
-use arbitrary::{case_with, numbers, replay};
-use claims::targets;
 use proptest::prelude::*;
 use std::path::Path;
+use testkit::arbitrary::{case_with, numbers, replay};
+use testkit::claims::targets;
 
 #[test]
 fn constructors() {

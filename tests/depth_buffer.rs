@@ -2,15 +2,13 @@
 
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
-mod arbitrary;
-
-use arbitrary::{Numbers, Together, case, run};
 use glam::DVec3;
 use proptest::prelude::*;
 use shadowfit::{
     View,
     input::{DepthRange, Lens},
 };
+use testkit::arbitrary::{Numbers, Together, case, run};
 
 #[test]
 fn what_the_projection_stores_is_the_depth_it_came_from() {

@@ -2,13 +2,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
-mod arbitrary;
-mod claims;
-
-use arbitrary::{Case, case, run, settings, wide_door};
-use claims::constructors::widen_by_any_bits;
-use claims::results::exercise;
-use claims::{rays, scaling, single_precision};
 use proptest::prelude::*;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -19,6 +12,10 @@ use shadowfit::{
     input::{ConvexScene, InputErrorKind},
     omni::CubeFace,
 };
+use testkit::arbitrary::{Case, case, run, settings, wide_door};
+use testkit::claims::constructors::widen_by_any_bits;
+use testkit::claims::results::exercise;
+use testkit::claims::{rays, scaling, single_precision};
 
 /// As many as a scene may keep, and more.
 const MANY: usize = 30;

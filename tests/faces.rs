@@ -1,13 +1,11 @@
 //! The faces of a cube around a light: what each lights, and that their maps together serve a light among what it lights.
 
-mod arbitrary;
-
-use arbitrary::{Numbers, points_of, run};
 use glam::DVec3;
 use proptest::prelude::*;
 use shadowfit::{
     Empty, Focus, FocusForm, Light, Outcome, Scene, Settings, ShadowMap, View, Warp, omni::CubeFace, warp::Shift,
 };
+use testkit::arbitrary::{Numbers, points_of, run};
 
 /// A direction as long as it may be, evenly over a cube.
 fn arm() -> impl Strategy<Value = DVec3> {

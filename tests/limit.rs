@@ -2,17 +2,15 @@
 
 #![allow(clippy::disallowed_methods, reason = "closed forms and random cases, no part of a fit")]
 
-mod arbitrary;
-mod outdoors;
-
 use approx::assert_relative_eq;
-use arbitrary::{Together, case, run, settings};
 use glam::DVec3;
 use proptest::prelude::*;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use shadowfit::{Focus, Light, Scene, Settings, View, Warp, warp::Shift};
 use std::f64::consts::TAU;
+use testkit::arbitrary::{Together, case, run, settings};
+use testkit::outdoors;
 
 const MAP: u32 = 2048;
 const IMAGE: u32 = 1080;

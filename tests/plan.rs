@@ -3,13 +3,6 @@
 #![cfg(feature = "std")]
 #![allow(clippy::disallowed_methods, reason = "angles spread the cases, they are no part of a plan")]
 
-mod arbitrary;
-mod claims;
-
-use claims::planner::{
-    keeps_every_receiver_in_view, keeps_to_its_texels, loses_no_caster, sees_no_more_in_less, warps_to_gain,
-};
-use claims::town::LitTown;
 use glam::DVec3;
 use rand::SeedableRng as _;
 use rand::rngs::StdRng;
@@ -18,6 +11,10 @@ use shadowfit::{
     mesh::Solidity,
     plan::{Budget, Kind, LightPlan, Object, Objects, Reason, Surface, plan},
 };
+use testkit::claims::planner::{
+    keeps_every_receiver_in_view, keeps_to_its_texels, loses_no_caster, sees_no_more_in_less, warps_to_gain,
+};
+use testkit::claims::town::LitTown;
 
 /// How many towns.
 fn towns() -> u64 {

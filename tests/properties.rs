@@ -6,16 +6,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
-mod arbitrary;
-mod claims;
-
-use arbitrary::{
-    Case, LightParams, Pose, SceneParams, Together, ViewParams, case, following, rotation, run, settings,
-};
-use claims::anything::{anything, makes_a_fit_or_a_typed_error};
-use claims::rays::{self, projected};
-use claims::results::exercise;
-use claims::scaling;
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use shadowfit::{
@@ -24,6 +14,13 @@ use shadowfit::{
     input::ConvexScene,
     warp::Shift,
 };
+use testkit::arbitrary::{
+    Case, LightParams, Pose, SceneParams, Together, ViewParams, case, following, rotation, run, settings,
+};
+use testkit::claims::anything::{anything, makes_a_fit_or_a_typed_error};
+use testkit::claims::rays::{self, projected};
+use testkit::claims::results::exercise;
+use testkit::claims::scaling;
 
 #[test]
 fn rays_keep_their_place_and_gain_depth() {

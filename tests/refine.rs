@@ -3,9 +3,6 @@
 #![cfg(feature = "spade")]
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
-mod arbitrary;
-
-use arbitrary::{Numbers, number_bits, run};
 use glam::DVec3;
 use proptest::prelude::*;
 use shadowfit::{
@@ -16,6 +13,7 @@ use shadowfit::{
 };
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
+use testkit::arbitrary::{Numbers, number_bits, run};
 
 /// A mesh: positions and triangles.
 type Mesh = (Vec<DVec3>, Vec<[u32; 3]>);

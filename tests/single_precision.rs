@@ -6,14 +6,11 @@
 
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
-mod arbitrary;
-mod claims;
-
-use arbitrary::{Case, Frame, LightParams, Pose, SceneParams, ViewParams, WARPS, case, run, settings};
-use claims::single_precision::{holds_what_it_must, is_as_quiet_as_it_says, rounding};
 use glam::DVec3;
 use proptest::prelude::*;
 use shadowfit::{ClipSpace, Focus, Light, Origin, Scene, Settings, View, warp::Shift};
+use testkit::arbitrary::{Case, Frame, LightParams, Pose, SceneParams, ViewParams, WARPS, case, run, settings};
+use testkit::claims::single_precision::{holds_what_it_must, is_as_quiet_as_it_says, rounding};
 
 #[test]
 fn maps_hold_what_they_must() {

@@ -2,12 +2,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "a logarithm is what texels tend to, it is no part of a fit")]
 
-mod arbitrary;
-mod claims;
-
-use arbitrary::{Together, case, run, settings, sides};
-use claims::constructors::cut_at_any_bits;
-use claims::slices::{self, cutting};
 use glam::{DVec2, DVec3, Vec3, Vec4};
 use proptest::prelude::*;
 use shadowfit::{
@@ -18,6 +12,9 @@ use shadowfit::{
     input::{InputErrorKind, MAX_COORDINATE, MIN_DISTANCE},
     warp::Shift,
 };
+use testkit::arbitrary::{Together, case, run, settings, sides};
+use testkit::claims::constructors::cut_at_any_bits;
+use testkit::claims::slices::{self, cutting};
 
 /// The field of view with 2T = 1, twice the angle whose tangent is a half.
 const FOV: f64 = 0.927_295_218_001_612_2;

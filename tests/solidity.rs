@@ -10,9 +10,7 @@ use shadowfit::{
     mesh::{Solidity, SolidityReport},
 };
 
-mod arbitrary;
-
-use arbitrary::{Numbers, rotation, run};
+use testkit::arbitrary::{Numbers, rotation, run};
 
 type Triangles = Vec<[DVec3; 3]>;
 

@@ -1,19 +1,16 @@
 //! Virtual samples: depths of a plane at places where it was not seen, against the matrix, in f64 and as a shader has them.
 
-mod arbitrary;
-mod claims;
-
-use arbitrary::{Numbers, case, run, settings};
-use claims::virtual_samples::{
-    allows_for_rounding, depths_are_exact, direction, in_a_shader, projected, rules_hold_where_planes_are_seen,
-    rules_only_cut_short, shaders_find_them,
-};
 use glam::{DVec2, DVec3, Vec3};
 use proptest::prelude::*;
 use shadowfit::{
     ClipSpace, DepthFormat, Light, Scene, Settings, ShadowMap, View, Warp,
     depth::{ComparisonTolerance, Decision, MIN_SIN_INCIDENCE, RASTER_GRID, TangentPlane},
     fit,
+};
+use testkit::arbitrary::{Numbers, case, run, settings};
+use testkit::claims::virtual_samples::{
+    allows_for_rounding, depths_are_exact, direction, in_a_shader, projected, rules_hold_where_planes_are_seen,
+    rules_only_cut_short, shaders_find_them,
 };
 
 #[test]

@@ -2,9 +2,4 @@
 
 #![no_main]
 
-#[path = "../../tests/arbitrary/mod.rs"]
-mod arbitrary;
-#[path = "../../tests/claims/mod.rs"]
-mod claims;
-
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| claims::targets::planner(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| testkit::claims::targets::planner(bytes));

@@ -37,7 +37,7 @@ pub(crate) fn propose<P: Iterator<Item = DVec3> + Clone>(
 /// the largest on. A warp is there to undo the camera's perspective, and more than that only wastes texels. Where the light makes an angle θ with the view,
 /// depth varies along its rays as well, which no warp can follow, and the part above 1 is multiplied by sin⁴ θ: a light at
 /// right angles may use it all, a light along the view none. The exponent is a choice by measure (`cargo run --release
-/// --example survey`): with smaller ones more views are worse off than without a warp.
+/// -p testkit --bin survey`): with smaller ones more views are worse off than without a warp.
 fn allowed_ratio<P: Iterator<Item = DVec3> + Clone>(depth: &Plane, visible: &Visible<'_, P>) -> f64 {
     /// A view without perspective has ratio 1 and is left with the uniform map; the least above 1 keeps κ finite.
     const ALMOST_UNIFORM: f64 = 1.0 + 1.0 / 1024.0;

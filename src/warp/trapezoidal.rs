@@ -63,7 +63,7 @@ pub(crate) fn propose<P: Iterator<Item = DVec3> + Clone>(
 }
 
 /// Where the focus is, which is the user's to choose in the paper: on the central ray, at this part of the depths of what is
-/// visible. On outdoor views the medians of the worst aliasing are about least with it (`cargo run --release --example survey`):
+/// visible. On outdoor views the medians of the worst aliasing are about least with it (`cargo run --release -p testkit --bin survey`):
 /// 0.096, 0.210 and 0.307 of the uniform map's for suns, lamps and spots, where 1/8 has 0.096, 0.200 and 0.366 and 1/3 has
 /// 0.150, 0.267 and 0.366.
 const FOCUS: f64 = 1.0 / 5.0;

@@ -1,10 +1,10 @@
 //! The best map from frame to frame: fitted from the one before, it stays with it, and says when it does not.
 
-use crate::outdoors::{self, Kind};
 use glam::DVec3;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use shadowfit::{Effort, Focus, Light, Settings, ShadowMap, View, Warp};
+use testkit::outdoors::{self, Kind};
 
 /// A camera that can be moved.
 struct Walk {

@@ -2,24 +2,20 @@
 
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
-#[path = "../arbitrary/mod.rs"]
-mod arbitrary;
 mod exhaustive;
 mod found;
 mod frames;
-#[path = "../outdoors/mod.rs"]
-mod outdoors;
 
-use arbitrary::{FORMS, Together, case, run};
 use exhaustive::Plane;
 use found::{of_form, of_search};
 use glam::DVec3;
-use outdoors::Kind;
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use shadowfit::{Effort, Focus, FocusForm, Settings, ShadowMap, Warp, warp::Shift};
 use std::cell::Cell;
+use testkit::arbitrary::{FORMS, Together, case, run};
+use testkit::outdoors::{self, Kind};
 
 const EFFORTS: [Effort; 4] = [Effort::ClosedForms, Effort::Rough, Effort::Good, Effort::Thorough];
 

@@ -7,8 +7,8 @@ use shadowfit::{
     input::InputErrorKind, omni::CubeFace,
 };
 
-use super::arbitrary::{Together, case, points_of, run, settings};
 use super::{FORMATS, lamp, outdoors, scene, sun, view};
+use testkit::arbitrary::{Together, case, points_of, run, settings};
 
 #[test]
 fn eight_bits_are_steps_of_a_255th() {

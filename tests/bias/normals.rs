@@ -7,8 +7,8 @@ use glam::{DMat4, DVec2, DVec3};
 use proptest::prelude::*;
 use shadowfit::{ClipSpace, DepthFormat, Focus, Outcome, Settings, ShadowMap, depth::ReceiverOffset};
 
-use super::arbitrary::{Together, case, points_of, run, settings};
 use super::{lamp, outdoors, scene, sun, view};
+use testkit::arbitrary::{Together, case, points_of, run, settings};
 
 /// The plane's own depth at a place: where the ray through it meets the plane.
 fn depth_on_plane(map: &ShadowMap, from_texture: &DMat4, place: DVec2, point: DVec3, normal: DVec3) -> Option<f64> {

@@ -9,8 +9,8 @@ use shadowfit::{
     input::InputErrorKind,
 };
 
-use super::arbitrary::{Together, case, points_of, run, settings};
 use super::{lamp, outdoors, scene, sun, view};
+use testkit::arbitrary::{Together, case, points_of, run, settings};
 
 /// The most that two ways to compute a depth may differ by: a few dozen roundings of the terms of the rows, which are
 /// combinations of planes through the light, so that its own coordinates count.

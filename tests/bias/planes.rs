@@ -6,8 +6,8 @@ use glam::Vec4Swizzles;
 use proptest::prelude::*;
 use shadowfit::{ClipSpace, DepthFormat, Outcome, depth::DepthBias};
 
-use super::arbitrary::{Together, case, points_of, run, settings};
 use super::simulate::{Card, UNITS, drawing, margin};
+use testkit::arbitrary::{Together, case, points_of, run, settings};
 
 #[test]
 fn no_plane_shadows_itself() {

@@ -11,7 +11,7 @@ use shadowfit::{
 };
 
 use super::FORMATS;
-use super::arbitrary::{Numbers, sides};
+use testkit::arbitrary::{Numbers, sides};
 
 /// What f32 makes of a row, relative to the sum of its terms' magnitudes.
 pub(crate) const UNITS: f64 = 8.0 / 16_777_216.0;

@@ -1,13 +1,10 @@
 //! The same bits everywhere: what a stored table says of three hundred set-ups holds under every profile, feature set and
 //! target, and with every version of glam that is accepted.
 //!
-//! A change of any bit is a change that users see, and is stored on purpose: `cargo run --example bits
+//! A change of any bit is a change that users see, and is stored on purpose: `cargo run -p bits
 //! >tests/bits/table.txt`. How to make the same table on another target is in `target.sh` beside it.
 
-#[cfg(feature = "std")]
-mod plans;
-mod setups;
-mod table;
+use bits::table;
 
 /// That a table is what it was, or else which set-up is not.
 fn assert_same(stored: &str, found: &str) {
@@ -28,7 +25,7 @@ fn results_have_the_same_bits_everywhere() {
 #[cfg(feature = "std")]
 #[test]
 fn plans_have_the_same_bits_everywhere() {
-    let found = plans::plans();
+    let found = bits::plans::plans();
     if std::env::var_os("SHADOWFIT_STORE").is_some() {
         std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/bits/plans.txt"), &found).expect("written");
     }

@@ -17,16 +17,17 @@ cd "$(dirname "$0")/../.."
 
 target=$1
 features=${FEATURES:-libm}
-case $target in
-wasm32-*) runner=${RUNNER:-node --no-warnings tests/bits/wasi.mjs} ;;
-*) runner=${RUNNER:-} ;;
-esac
+name=bits
+runner=${RUNNER:-}
+if [[ $target == wasm32-* ]]; then
+    name=bits.wasm
+    runner=${RUNNER:-node --no-warnings tests/bits/wasi.mjs}
+fi
 
 folder=${CARGO_TARGET_DIR:-target}/$target/release
-cargo build --package shadowfit --lib --release --target "$target" --no-default-features --features "$features"
-rustc ${RUSTFLAGS:-} --edition 2024 -C opt-level=2 ${LINKER:+-C linker="$LINKER"} --target "$target" examples/bits.rs \
-    --extern shadowfit="$folder/libshadowfit.rlib" -L dependency="$folder/deps" -o "$folder/bits"
+cargo build --package bits --release --target "$target" --no-default-features --features "$features" \
+    ${LINKER:+--config "target.$target.linker='$LINKER'"}
 
-$runner "$folder/bits" >"$folder/bits.txt"
+$runner "$folder/$name" >"$folder/bits.txt"
 cmp tests/bits/table.txt "$folder/bits.txt"
 echo "$target: $(wc -l <tests/bits/table.txt) lines, the same bits"

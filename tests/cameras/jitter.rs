@@ -1,9 +1,9 @@
 //! Stable maps under a projection that moves by parts of a pixel from frame to frame, as temporal anti-aliasing has it.
 
-use crate::arbitrary::{rotation, run};
 use glam::{DMat4, DQuat, DVec2, DVec3, DVec4, Mat4, Quat, Vec3};
 use proptest::prelude::*;
 use shadowfit::{ClipSpace, Light, Scene, Settings, ShadowMap, View, Warp, fit};
+use testkit::arbitrary::{rotation, run};
 
 const HEIGHT: u32 = 1080;
 const ASPECT: f64 = 16.0 / 9.0;

@@ -3,7 +3,6 @@
 //! `SHADOWFIT_CASES=100000 cargo test --release --test cameras accepted -- --nocapture` prints the share of cameras that are
 //! accepted and how far their corners are from where the matrices have them, beside the rounding of the entries.
 
-use crate::arbitrary::{clip_space, rotation, run};
 use glam::{DMat4, DQuat, DVec3, DVec4, Mat4};
 use proptest::prelude::*;
 use shadowfit::{
@@ -11,6 +10,7 @@ use shadowfit::{
     input::{DepthRange, YAxis},
 };
 use std::cell::RefCell;
+use testkit::arbitrary::{clip_space, rotation, run};
 
 /// A camera in exact numbers.
 #[derive(Clone, Debug)]

@@ -2,10 +2,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
-#[path = "../arbitrary/mod.rs"]
-mod arbitrary;
-#[path = "../claims/mod.rs"]
-mod claims;
 mod jitter;
 mod made;
 mod named;

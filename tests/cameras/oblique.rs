@@ -1,11 +1,11 @@
 //! Mirrors and portals: a near plane that is not across the view.
 
-use crate::arbitrary::{points_of, rotation, run};
 use glam::{DMat4, DVec3, DVec4};
 use proptest::prelude::*;
 use shadowfit::{
     ClipSpace, Focus, FocusForm, Light, Outcome, Scene, Settings, View, Warp, focus::Plane, input::InputErrorKind,
 };
+use testkit::arbitrary::{points_of, rotation, run};
 
 /// Lengyel's projection: the near plane is `plane`, in eye space, and the far plane is scaled to just hold the frustum.
 fn oblique(lens: DMat4, plane: DVec4) -> DMat4 {

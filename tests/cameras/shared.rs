@@ -1,7 +1,5 @@
 //! One map for several views.
 
-use crate::arbitrary::{case, points_of, run, settings};
-use crate::claims::shared::{Tried, lose_nothing};
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use shadowfit::{
@@ -10,6 +8,8 @@ use shadowfit::{
     input::{InputErrorKind, Tangents},
 };
 use std::cell::Cell;
+use testkit::arbitrary::{case, points_of, run, settings};
+use testkit::claims::shared::{Tried, lose_nothing};
 
 /// The two eyes of a headset, 64 mm apart, canted outwards by so many radians, with so much to see on the inner side.
 fn eyes(middle: DVec3, turn: DQuat, cant: f64, inner: f64) -> [View; 2] {

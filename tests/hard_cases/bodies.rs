@@ -10,11 +10,11 @@ use shadowfit::{
 
 use crate::place::{assert_holds, in_f32, is_inside, lamp, map, settings, sun, turned_view, view, wide};
 use crate::sweep::{about, powers, steps};
-use crate::tables::arithmetic::Big;
-use crate::tables::bodies::{hull, vertices};
-use crate::tables::linear::{V4, homogeneous};
-use crate::tables::measure::Ours;
-use crate::tables::setup::{Lamp, Setup};
+use testkit::stability::arithmetic::Big;
+use testkit::stability::bodies::{hull, vertices};
+use testkit::stability::linear::{V4, homogeneous};
+use testkit::stability::measure::Ours;
+use testkit::stability::setup::{Lamp, Setup};
 
 type Planes = Vec<V4<Big>>;
 

@@ -1,11 +1,11 @@
-//! What `cargo run --release --example stability` prints: our columns keep their bounds, and the textbook's lose what they
+//! What `cargo run --release -p testkit --bin stability` prints: our columns keep their bounds, and the textbook's lose what they
 //! are said to lose.
 
 use shadowfit::glam::DVec3;
 
-use crate::tables::ALL;
-use crate::tables::measure::Comparison;
-use crate::tables::setup::{Lamp, Setup};
+use testkit::stability::ALL;
+use testkit::stability::measure::Comparison;
+use testkit::stability::setup::{Lamp, Setup};
 
 #[test]
 fn our_columns_keep_their_bounds() {

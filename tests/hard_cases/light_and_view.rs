@@ -11,10 +11,10 @@ use crate::place::{
     view, visible, wide,
 };
 use crate::sweep::{about, powers, steps};
-use crate::tables::bodies::{hull, vertices};
-use crate::tables::linear::homogeneous;
-use crate::tables::measure::Ours;
-use crate::tables::setup::{Lamp, Setup};
+use testkit::stability::bodies::{hull, vertices};
+use testkit::stability::linear::homogeneous;
+use testkit::stability::measure::Ours;
+use testkit::stability::setup::{Lamp, Setup};
 
 /// That a family of maps changes about 0 by no more than in proportion: by at most four times (a kink, where another vertex
 /// begins to limit the warp, may double a slope, and double it again) what the steepest of the first eight powers of ten
@@ -168,7 +168,7 @@ fn exact_body(
     light: &Light,
     min: DVec3,
     max: DVec3,
-) -> Vec<crate::tables::linear::V4<crate::tables::arithmetic::Big>> {
+) -> Vec<testkit::stability::linear::V4<testkit::stability::arithmetic::Big>> {
     let of_view: Vec<_> = view.planes().iter().map(|plane| homogeneous(plane.to_row())).collect();
     let mut planes = hull(&of_view, &homogeneous(light.homogeneous()));
     for (axis, normal) in DVec3::AXES.into_iter().enumerate() {

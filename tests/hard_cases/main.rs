@@ -1,7 +1,7 @@
 //! The hard cases of shadow fitting, one named test each: what breaks elsewhere, and what must come out instead.
 //!
 //! Boundaries are swept from both sides by 10⁻ᵏ, k = 1 … 16, and by single steps of f64. Errors of matrices are against the
-//! same formulas in numbers of 512 bits (`tables`, which `cargo run --release --example stability` prints too). Where
+//! same formulas in numbers of 512 bits (`tables`, which `cargo run --release -p testkit --bin stability` prints too). Where
 //! another test shows a row over cases at random, the test here is the short, exact one, and says which the other is.
 //!
 //! - `light_and_view`: rows 1 to 8, 15 and 16.
@@ -27,5 +27,3 @@ mod output;
 mod place;
 mod sweep;
 // The example prints what the tests here hold.
-#[path = "../../examples/stability/tables/mod.rs"]
-mod tables;

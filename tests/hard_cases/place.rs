@@ -5,8 +5,8 @@ use shadowfit::{
     ClipSpace, Focus, Light, Outcome, Scene, Settings, ShadowMap, View, Warp, focus::ConvexBody, warp::Shift,
 };
 
-use crate::tables::arithmetic::{Big, Real};
-use crate::tables::linear::{V4, dot, homogeneous};
+use testkit::stability::arithmetic::{Big, Real};
+use testkit::stability::linear::{V4, dot, homogeneous};
 
 /// A camera at the origin that looks along −z, off every lattice.
 pub(crate) fn view() -> View {

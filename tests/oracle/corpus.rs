@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 
-use crate::arbitrary::{ShownOnPanic, case_with, replay};
-use crate::focus::check_case;
+use testkit::arbitrary::{ShownOnPanic, case_with, replay};
+use testkit::oracle::focus::check_case;
 
 #[test]
 fn focus() {

@@ -4,8 +4,8 @@
 //! the view's axis, almost in the planes of all sides at once: their values there were rounding, and a plane that is the sum
 //! of two by such factors turned about the edge, which is far away.
 
-use crate::arbitrary::{Case, LightParams, Pose, SceneParams, ViewParams};
-use crate::focus::check_case;
+use testkit::arbitrary::{Case, LightParams, Pose, SceneParams, ViewParams};
+use testkit::oracle::focus::check_case;
 
 /// A scene that is a flat strip, and a lamp behind the eye: 1e-15 of the paper's H.
 #[test]

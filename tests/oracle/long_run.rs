@@ -22,13 +22,13 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use shadowfit::focus::Plane;
 
-use crate::arbitrary::{Case, SceneParams, case};
-use crate::body::Body;
-use crate::certified::half_spaces::HalfSpaces;
-use crate::certified::precise::admits;
-use crate::certified::{ENOUGH, Margins, Uncertain, certify, side_of_box, unit};
-use crate::focus::Input;
-use crate::loss::{Shape, losses};
+use testkit::arbitrary::{Case, SceneParams, case};
+use testkit::oracle::body::Body;
+use testkit::oracle::certified::half_spaces::HalfSpaces;
+use testkit::oracle::certified::precise::admits;
+use testkit::oracle::certified::{ENOUGH, Margins, Uncertain, certify, side_of_box, unit};
+use testkit::oracle::focus::Input;
+use testkit::oracle::loss::{Shape, losses};
 
 /// The names of the three bodies.
 const NAMES: [&str; 3] = ["R", "paper", "tight"];

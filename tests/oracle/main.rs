@@ -19,20 +19,8 @@
 
 #![allow(clippy::disallowed_methods, reason = "lengths measure what a fit left out, they are no part of one")]
 
-#[path = "../arbitrary/mod.rs"]
-mod arbitrary;
-mod body;
-mod certified;
 mod checks;
-mod cone;
 mod corpus;
-mod distance;
-mod exact;
 mod focus;
 mod found;
-mod homogeneous;
-mod hull;
 mod long_run;
-mod loss;
-mod margin;
-mod scalar;

@@ -5,8 +5,8 @@ use proptest::prelude::*;
 use shadowfit::{DepthFormat, Origin, Settings, depth::ReceiverOffset, input::InputErrorKind};
 
 use super::{both, direction_about, from_light};
-use crate::arbitrary::{Case, LightParams, Numbers, Pose, SceneParams, ViewParams, case, run, settings};
-use crate::claims::paraboloid::{noise_is_at_least_that_of_points, texels_per_unit};
+use testkit::arbitrary::{Case, LightParams, Numbers, Pose, SceneParams, ViewParams, case, run, settings};
+use testkit::claims::paraboloid::{noise_is_at_least_that_of_points, texels_per_unit};
 
 /// What the shader writes for the texel at a place on the plane where `plane` · x = 1, the light in the middle, as a
 /// distance; in f64.

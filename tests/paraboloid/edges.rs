@@ -5,8 +5,8 @@ use shadowfit::{Settings, omni::Paraboloid};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{both, direction_about, from_light};
-use crate::arbitrary::Numbers;
-use crate::claims::paraboloid::texels_per_unit;
+use testkit::arbitrary::Numbers;
+use testkit::claims::paraboloid::texels_per_unit;
 
 /// A part of a straight edge: where it is drawn, the point of the edge whose part it is, and where that should be.
 struct Fragment {

@@ -11,8 +11,8 @@ use shadowfit::{
 use std::cell::Cell;
 
 use super::{lamp, room, view};
-use crate::arbitrary::{case, run, settings};
-use crate::claims::paraboloid::{carries_no_farther_than_it_says, holds_what_it_must};
+use testkit::arbitrary::{case, run, settings};
+use testkit::claims::paraboloid::{carries_no_farther_than_it_says, holds_what_it_must};
 
 #[test]
 fn f32_carries_points_no_farther_than_the_map_says() {

@@ -3,22 +3,18 @@
 
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
-#[path = "../arbitrary/mod.rs"]
-mod arbitrary;
 mod bias;
-#[path = "../claims/mod.rs"]
-mod claims;
 mod edges;
 mod fits;
 mod projection;
 
-use arbitrary::Numbers;
 use glam::DVec3;
 use shadowfit::{
     Focus, Light, Scene, Settings, View,
     omni::{Paraboloid, Paraboloids},
 };
 use std::f64::consts::{FRAC_PI_2, TAU};
+use testkit::arbitrary::Numbers;
 
 fn view() -> View {
     View::perspective((0.5, 2.0, 9.0), (0.0, 0.1, -1.0), DVec3::Y, 1.0, 1.5, 0.1, 100.0).expect("sound")

@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3, Vec4Swizzles};
 use shadowfit::{ClipSpace, DepthFormat, Focus, Light, Settings};
 
 use super::{both, direction_about, from_light, room, view};
-use crate::arbitrary::Numbers;
-use crate::claims::paraboloid::{shader, texels_per_unit};
+use testkit::arbitrary::Numbers;
+use testkit::claims::paraboloid::{shader, texels_per_unit};
 
 #[test]
 fn places_are_those_of_the_paper() {

@@ -1,10 +1,10 @@
 //! The bounds of balls and discs in f64.
 
-use crate::arbitrary::{Numbers, Similarity, Together, case, run, settings};
 use crate::rounds::{Round, Rows, direction, landscape, rounds};
 use glam::{DVec2, DVec3, DVec4};
 use proptest::prelude::*;
 use shadowfit::{Outcome, Settings, Warp, depth::Splat};
+use testkit::arbitrary::{Numbers, Similarity, Together, case, run, settings};
 
 #[test]
 fn bounds_hold_balls_and_discs_and_touch_them() {
@@ -69,10 +69,10 @@ fn scaling_by_a_power_of_two_scales_nothing_in_texels() {
     run(1000, &(case(), settings(), -20..=20_i32, any::<u64>()), |(case, settings, exponent, seed)| {
         let scale = 2_f64.powi(exponent);
         let [larger, back] = [scale, scale.recip()].map(|scale| Similarity { scale, offset: [0.0; 3] });
-        let scaled = larger.apply(&case);
+        let scaled = case.moved(&larger);
         let l = case.build().1.homogeneous();
         let is_tiny = |x: f64| x != 0.0 && x.abs() < 1e-200;
-        if !scaled.is_accepted() || back.apply(&scaled) != case || l.to_array().into_iter().any(is_tiny) {
+        if !scaled.is_accepted() || scaled.moved(&back) != case || l.to_array().into_iter().any(is_tiny) {
             return;
         }
         let (here, there) = (Together::of(&case), Together::of(&scaled));

@@ -3,8 +3,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
-#[path = "../arbitrary/mod.rs"]
-mod arbitrary;
 mod bounds;
 mod rounds;
 mod shader;

@@ -1,6 +1,5 @@
 //! Balls and discs at random, and what can be off in where they fall.
 
-use crate::arbitrary::{Case, Numbers, Together, points_of, sides};
 use glam::{DVec2, DVec3, DVec4};
 use shadowfit::{
     Light, Scene, Settings, ShadowMap, View,
@@ -8,6 +7,7 @@ use shadowfit::{
     fit,
     input::{TextureOrigin, YAxis},
 };
+use testkit::arbitrary::{Case, Numbers, Together, points_of, sides};
 
 /// A disc or, with a normal of zero, a ball.
 #[derive(Clone, Copy, Debug)]

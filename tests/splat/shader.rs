@@ -1,10 +1,10 @@
 //! The same as the shader computes them in f32.
 
-use crate::arbitrary::{Numbers, Together, case, run, settings, sides};
 use crate::rounds::{Round, Rows, TO_SUN, direction, landscape, rounds, texels};
 use glam::{DMat3, DVec2, DVec3, Mat4, Vec2, Vec3};
 use proptest::prelude::*;
 use shadowfit::{Outcome, Settings, ShadowMap, Warp};
+use testkit::arbitrary::{Numbers, Together, case, run, settings, sides};
 
 /// What the shader does, operation by operation, in f32.
 fn mirrored(matrix: Mat4, centre: Vec3, normal: Vec3, radius: f32, map_sides: Vec2, corner: Vec2) -> [f32; 3] {

@@ -1,9 +1,9 @@
 //! Cameras that move and turn, and where a stable map puts things.
 
-use crate::arbitrary::{self};
 use glam::{DMat4, DQuat, DVec2, DVec3, Vec3, Vec4};
 use proptest::prelude::*;
 use shadowfit::{Aabb, ClipSpace, InputError, Scene, Settings, ShadowMap, View, Warp, input::ConvexScene};
+use testkit::arbitrary::{self};
 
 /// Where a camera is, from the middle of the scene, and how it is turned from looking along −z.
 #[derive(Clone, Copy, Debug)]

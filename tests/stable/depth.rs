@@ -1,11 +1,11 @@
 //! The depth range: it changes rarely.
 
-use crate::arbitrary::{self, run};
 use crate::cameras::{
     Form, Lens, Pose, form, lens, off_whole, rows, sides, stable, texels, texels_in_f32, two_poses,
 };
 use glam::{DQuat, DVec3};
 use shadowfit::{Light, Origin, Settings, ShadowMap, Warp, fit};
+use testkit::arbitrary::{self, run};
 
 /// Both ends of the depth range are whole steps from the world's origin, a sixteenth of the window each.
 #[test]

@@ -1,6 +1,5 @@
 //! The grid of texels: the same for all cameras.
 
-use crate::arbitrary::{self, points_of, run};
 use crate::cameras::{
     Form, Lens, Pose, form, lens, middle, next_to, off_whole, pose, rows, sides, stable, texels, texels_in_f32,
     two_poses,
@@ -9,6 +8,7 @@ use glam::{DMat4, DQuat, DVec2, DVec3, DVec4};
 use proptest::prelude::*;
 use shadowfit::{ClipSpace, Focus, Light, Origin, Settings, ShadowMap, View, Warp, fit};
 use std::cell::Cell;
+use testkit::arbitrary::{self, points_of, run};
 
 /// Texels have the same sides to the bit, axes the same direction to the bit, and the grids of two views lie on one another.
 /// The window is as wide as the ball around V, the border, a texel, 1/128, and what rounding a side to 13 bits adds. The ball

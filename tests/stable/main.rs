@@ -5,8 +5,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
-#[path = "../arbitrary/mod.rs"]
-mod arbitrary;
 mod cameras;
 mod depth;
 mod grid;

@@ -1,11 +1,11 @@
 //! What the window has room for.
 
-use crate::arbitrary::{self, Together, case, points_of, run, settings};
 use crate::cameras::{Form, Lens, lens, middle, rows, sides, stable, texels, two_poses};
 use glam::DVec3;
 use proptest::prelude::*;
 use shadowfit::{Light, Origin, Scene, Settings, View, Warp, fit, omni::CubeFace};
 use std::cell::Cell;
+use testkit::arbitrary::{self, Together, case, points_of, run, settings};
 
 /// The window that what is visible needs is inside of the one that is there, in every case: no slack is left to roundings of
 /// f64, since the room for those of f32 is far larger.

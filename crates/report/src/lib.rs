@@ -10,7 +10,6 @@
 //! | [`timing`] | contenders timed in turn |
 //! | [`statistics`] | medians, quantiles, exponents of growth |
 //! | [`front`] | what nothing else beats in both time and error |
-//! | `outdoors`, `arbitrary`, `oracle` | random views and lights, hard cases and the exact focus body: those of the tests |
 //! | [`arithmetic`] | the same body and matrix in f32, f64, f64 with bounds, and exactly |
 //! | [`body`] | what is drawn and what is wasted, by the body that is fitted to; the crate and its peers |
 //! | [`map`] | wrong pixels and aliasing over time, by warp, slices, size, kind of map and test |
@@ -44,9 +43,3 @@ pub mod size;
 pub mod statistics;
 pub mod timing;
 pub mod write;
-
-#[path = "../../../tests/arbitrary/mod.rs"]
-pub(crate) mod arbitrary;
-pub(crate) mod oracle;
-#[path = "../../../tests/outdoors/mod.rs"]
-pub(crate) mod outdoors;

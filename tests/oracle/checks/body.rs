@@ -2,7 +2,7 @@
 
 use super::random::Random;
 use super::shapes::{cuboid, tetrahedron, unit_cube};
-use crate::body::Body;
+use testkit::oracle::body::Body;
 
 /// The vertices in lexicographic order.
 fn sorted_vertices(planes: &[[f64; 4]]) -> Vec<[f64; 3]> {

@@ -9,16 +9,16 @@ use shadowfit::focus::Plane;
 
 use super::random::Random;
 use super::shapes::{cuboid, tetrahedron};
-use crate::arbitrary::{Case, case};
-use crate::body::Body;
-use crate::certified::half_spaces::HalfSpaces;
-use crate::certified::precise::{Precise, admits};
-use crate::certified::{Uncertain, certify};
-use crate::exact::{integers, scale};
-use crate::focus::Input;
 use crate::long_run::half_spaces;
-use crate::loss::{Shape, losses};
-use crate::scalar::{cross, dot, minors};
+use testkit::arbitrary::{Case, case};
+use testkit::oracle::body::Body;
+use testkit::oracle::certified::half_spaces::HalfSpaces;
+use testkit::oracle::certified::precise::{Precise, admits};
+use testkit::oracle::certified::{Uncertain, certify};
+use testkit::oracle::exact::{integers, scale};
+use testkit::oracle::focus::Input;
+use testkit::oracle::loss::{Shape, losses};
+use testkit::oracle::scalar::{cross, dot, minors};
 
 /// The exact value lies within the bound around a determinant, and the bound is small.
 #[test]

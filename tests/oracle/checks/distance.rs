@@ -2,7 +2,7 @@
 
 use super::random::Random;
 use super::shapes::{cuboid, tetrahedron, unit_cube};
-use crate::body::Body;
+use testkit::oracle::body::Body;
 
 /// Asserts a distance to a relative 1e-14.
 fn assert_distance(planes: &[[f64; 4]], point: [f64; 3], expected: f64) {

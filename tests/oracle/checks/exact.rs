@@ -3,7 +3,7 @@
 use dashu_int::{IBig, UBig};
 
 use super::random::Random;
-use crate::exact::{integers, leading, ratio, scale, sqrt_ratio};
+use testkit::oracle::exact::{integers, leading, ratio, scale, sqrt_ratio};
 
 /// What goes in comes out again, across the whole range of `f64`.
 #[test]

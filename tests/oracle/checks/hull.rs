@@ -4,9 +4,9 @@ use std::cmp::Ordering;
 
 use super::random::Random;
 use super::shapes::{cuboid, frustum, infinite_frustum};
-use crate::body::Body;
-use crate::homogeneous::{ExactPlane, Homogeneous};
-use crate::hull::{homogeneous_vertices, hull};
+use testkit::oracle::body::Body;
+use testkit::oracle::homogeneous::{ExactPlane, Homogeneous};
+use testkit::oracle::hull::{homogeneous_vertices, hull};
 
 /// The half-spaces as `f64`, scaled to a largest component of 1 and in lexicographic order, where
 /// that is exact.

@@ -1,8 +1,8 @@
 //! Checks of the distance between empty and non-empty.
 
 use super::shapes::{cuboid, tetrahedron, unit_cube};
-use crate::homogeneous::Homogeneous;
-use crate::margin::smallest_inflation;
+use testkit::oracle::homogeneous::Homogeneous;
+use testkit::oracle::margin::smallest_inflation;
 
 /// The inflation of half-spaces given as `f64`.
 fn inflation(planes: &[[f64; 4]]) -> f64 {

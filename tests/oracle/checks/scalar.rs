@@ -3,9 +3,9 @@
 use std::cmp::Ordering;
 
 use super::random::Random;
-use crate::exact::scale;
-use crate::homogeneous::Homogeneous;
-use crate::scalar::{cross, dot, minors};
+use testkit::oracle::exact::scale;
+use testkit::oracle::homogeneous::Homogeneous;
+use testkit::oracle::scalar::{cross, dot, minors};
 
 /// Four vectors that are dependent up to rounding, and their exact determinant's sign, against
 /// the filter: it may be silent, but never wrong, and on generic vectors it speaks.

@@ -8,8 +8,8 @@ use rand::rngs::StdRng;
 use shadowfit::glam::DVec3;
 use shadowfit::{InputError, Light, Scene, View, focus::Plane};
 
-use crate::arbitrary::{SceneParams, SceneStore, case, plane};
-use crate::outdoors::{self, Kind, TOWN};
+use testkit::arbitrary::{SceneParams, SceneStore, case, plane};
+use testkit::outdoors::{self, Kind, TOWN};
 
 /// A view, a light and a scene.
 pub(crate) struct Case {

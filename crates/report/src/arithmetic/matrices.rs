@@ -9,16 +9,16 @@ use shadowfit::{ClipSpace, Focus, Settings, ShadowMap, Warp};
 
 use super::Set;
 use super::setups;
-use super::stability::arithmetic::{Big, Real};
-use super::stability::linear::{M4, V3, dot, exactly, point, rows_of, vector};
-use super::stability::ours::ours;
-use super::stability::setup::{Lamp, Setup};
-use super::stability::textbook::textbook;
 use super::turns::{CaseTime, Turn, times};
 use super::uniform::{Extent, uniform};
 use crate::size::Size;
 use crate::statistics::median;
 use crate::timing;
+use testkit::stability::arithmetic::{Big, Real};
+use testkit::stability::linear::{M4, V3, dot, exactly, point, rows_of, vector};
+use testkit::stability::ours::ours;
+use testkit::stability::setup::{Lamp, Setup};
+use testkit::stability::textbook::textbook;
 
 /// The kind of map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

@@ -9,8 +9,6 @@ mod number;
 mod plain;
 mod polyhedron;
 mod setups;
-#[path = "../../../../examples/stability/tables/mod.rs"]
-mod stability;
 mod truth;
 mod turns;
 mod uniform;

@@ -6,9 +6,9 @@ use rand::rngs::StdRng;
 use shadowfit::glam::DVec3;
 use shadowfit::{Focus, Origin, ShadowMap};
 
-use super::stability::lights::{in_f32, through_zero};
-use super::stability::setup::{Camera, Lamp, Setup};
-use crate::outdoors::{self, Kind, TOWN};
+use testkit::outdoors::{self, Kind, TOWN};
+use testkit::stability::lights::{in_f32, through_zero};
+use testkit::stability::setup::{Camera, Lamp, Setup};
 
 /// Set-ups, and how many were passed over: there is no one map of them, or it has a depth range without an end.
 pub(crate) struct Setups {

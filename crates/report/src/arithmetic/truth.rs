@@ -6,11 +6,11 @@ use dashu_ratio::RBig;
 use shadowfit::glam::DVec3;
 
 use super::cases::Case;
-use crate::oracle::body::Body;
-use crate::oracle::cone::generators;
-use crate::oracle::exact::sqrt_ratio;
-use crate::oracle::homogeneous::{ExactPlane, ExactPoint, Homogeneous};
-use crate::oracle::hull::hull;
+use testkit::oracle::body::Body;
+use testkit::oracle::cone::generators;
+use testkit::oracle::exact::sqrt_ratio;
+use testkit::oracle::homogeneous::{ExactPlane, ExactPoint, Homogeneous};
+use testkit::oracle::hull::hull;
 
 /// The exact body of a case, by the oracle.
 pub(crate) struct Truth {

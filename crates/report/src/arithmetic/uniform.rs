@@ -4,11 +4,11 @@
 use shadowfit::ShadowMap;
 use shadowfit::glam::DVec3;
 
-use super::stability::arithmetic::Real;
-use super::stability::linear::{M4, V3, at, one, sub, through, times, unit, vector};
-use super::stability::ours::across;
-use super::stability::setup::Setup;
-use super::stability::textbook::extent as extent_of;
+use testkit::stability::arithmetic::Real;
+use testkit::stability::linear::{M4, V3, at, one, sub, through, times, unit, vector};
+use testkit::stability::ours::across;
+use testkit::stability::setup::Setup;
+use testkit::stability::textbook::extent as extent_of;
 
 /// How large the box is: half of its width and height, and where it begins and ends along the light, from the eye.
 pub(crate) struct Extent<T> {
@@ -60,9 +60,9 @@ pub(crate) fn uniform<T: Real>(
 mod tests {
     use super::*;
     use crate::arithmetic::setups;
-    use crate::arithmetic::stability::linear::rows_of;
-    use crate::arithmetic::stability::setup::Lamp;
     use shadowfit::{ClipSpace, Focus, Warp};
+    use testkit::stability::linear::rows_of;
+    use testkit::stability::setup::Lamp;
 
     #[test]
     fn the_formulas_are_the_crates() {

@@ -10,9 +10,9 @@ use super::contender::Contender;
 use super::judge::loses;
 use super::truth::Truth;
 use super::{library, naive, own};
-use crate::arbitrary::{LightParams, SceneParams, ViewParams, case, plane};
 use crate::size::Size;
 use render_check::output::progress::bar;
+use testkit::arbitrary::{LightParams, SceneParams, ViewParams, case, plane};
 
 /// What became of one hard case.
 #[derive(Clone, Debug)]

@@ -10,7 +10,7 @@ use super::contender::{Culling, Fitted};
 use super::town::Town;
 use super::truth::{Exact, TownTruth, Truth};
 use super::window::Window;
-use crate::oracle::body::Body;
+use testkit::oracle::body::Body;
 
 /// What lies outside of a clip volume by no more than this part of the scene's diameter counts as inside.
 pub(crate) const TOLERANCE: f64 = 1e-3;

@@ -44,12 +44,12 @@ use rand::rngs::StdRng;
 use render_check::output::progress::bar;
 use shadowfit::Scene;
 
-use crate::outdoors::{self, Kind};
 use crate::size::Size;
 use crate::timing::{Time, in_turn};
 use case::Case;
 use contender::Contender;
 use judge::Bench;
+use testkit::outdoors::{self, Kind};
 use town::Town;
 use truth::TownTruth;
 

@@ -7,10 +7,10 @@ use shadowfit::{Aabb, Focus, Light, Scene, View, focus::Plane};
 
 use super::case::{Case, box_planes, farthest_corner, in_f64};
 use super::town::{Town, bounds};
-use crate::oracle::body::Body;
-use crate::oracle::cone::generators;
-use crate::oracle::exact::ratio;
-use crate::oracle::homogeneous::{ExactPlane, ExactPoint, Homogeneous};
+use testkit::oracle::body::Body;
+use testkit::oracle::cone::generators;
+use testkit::oracle::exact::ratio;
+use testkit::oracle::homogeneous::{ExactPlane, ExactPoint, Homogeneous};
 
 /// A part of the scene that lies so much nearer to a plane than this part of the scene's size is left to the integers.
 const DOUBT: f64 = 1e-7;

@@ -11,7 +11,7 @@ use shadowfit::{
     plan::{Object, Surface},
 };
 
-use crate::outdoors::Kind;
+use testkit::outdoors::Kind;
 
 /// Half of its side, and its height, in metres.
 pub(super) const HALF: f32 = 500.0;

@@ -11,10 +11,10 @@ use serde::Serialize;
 use shadowfit::{Focus, Light, Scene, Settings, View, fit};
 
 use super::cases::ALL_WARPS;
-use crate::outdoors::{self, Kind};
 use crate::size::Size;
 use crate::statistics::quantile;
 use crate::timing::{in_turn, taken};
+use testkit::outdoors::{self, Kind};
 
 /// A map counts as coarser than the uniform one from here on: both have roundings of their own.
 const COARSER: f64 = 1.001;
