@@ -222,3 +222,21 @@ pub mod mesh {
     pub use crate::refine::{NewVertex, Tessellation, Tessellator};
     pub use crate::solidity::{OpenShape, Solidity, SolidityReport};
 }
+
+/// The examples of the repository's pages, which are tests.
+#[cfg(doctest)]
+mod pages {
+    #[doc = include_str!("../README.md")]
+    struct Readme;
+    #[doc = include_str!("../docs/cascades.md")]
+    struct Cascades;
+    #[doc = include_str!("../docs/depth.md")]
+    struct Depth;
+    #[doc = include_str!("../docs/lights-all-around.md")]
+    struct LightsAllAround;
+    #[doc = include_str!("../docs/migrating.md")]
+    struct Migrating;
+    #[cfg(feature = "std")]
+    #[doc = include_str!("../docs/planner.md")]
+    struct Planner;
+}
