@@ -6,11 +6,9 @@
 //! and the receiver shadows itself within half a texel of the crease. And a bias that is large on a grazing face lets
 //! light through just behind the edge of a caster. Both shrink with the texel; neither is a matter of the matrix.
 
-mod common;
-
 use std::collections::HashMap;
 
-use common::{pass, passes, sweep, verdict};
+use super::common::{pass, passes, sweep, verdict};
 use render_check::cmd::sweep::SweepRun;
 use render_check::gpu::Filter;
 use render_check::maps::Technique;

@@ -3,11 +3,9 @@
 
 #![allow(clippy::disallowed_methods, reason = "only the fitting path needs the same bits on every platform")]
 
-mod common;
-
 use std::path::Path;
 
-use common::gpu;
+use super::common::gpu;
 use render_check::gpu::{Bias, Filter, MapDraw, MapPass, Points, ShadowMaps, shadow_test};
 use render_check::maps::{Layout, Split, Technique};
 use render_check::run::{Cutting, MapRun, Options, run};

@@ -1,5 +1,7 @@
 //! The program as its users meet it: what it prints, what it leaves behind, and what it says when it cannot.
 
+mod faulty_files;
+
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};

@@ -1,19 +1,17 @@
 //! What the tests that draw have in common.
 
-#![allow(dead_code, reason = "each test file is a program of its own, and uses some of this")]
-
 use render_check::cmd::sweep::{GROUPS, Summary, SweepRun, run_shots};
 use render_check::gpu::{Gpu, MapPass};
 use render_check::run::RunResult;
 use render_check::verdict::Verdict;
 
-pub(crate) fn gpu() -> Gpu {
+pub(super) fn gpu() -> Gpu {
     Gpu::new().unwrap_or_else(|error| panic!("{error:#}"))
 }
 
 /// Sweeps a group; checks that no caster is missing anywhere and that no run has more false pixels than `most`, as a
 /// part of what is compared.
-pub(crate) fn sweep(name: &str, most: f64) -> Vec<SweepRun> {
+pub(super) fn sweep(name: &str, most: f64) -> Vec<SweepRun> {
     let group = GROUPS.iter().find(|group| group.name == name).expect(name);
     let shots = (group.shots)().expect("built in");
     let runs = run_shots(&gpu(), group.name, &shots, || ()).expect("drawn");
@@ -31,21 +29,21 @@ pub(crate) fn sweep(name: &str, most: f64) -> Vec<SweepRun> {
     runs
 }
 
-pub(crate) fn passes(run: &SweepRun) -> usize {
+pub(super) fn passes(run: &SweepRun) -> usize {
     match &run.run.result {
         RunResult::Maps(maps) => maps.passes,
         RunResult::NoMap { .. } => 0,
     }
 }
 
-pub(crate) fn verdict(run: &SweepRun) -> Option<&Verdict> {
+pub(super) fn verdict(run: &SweepRun) -> Option<&Verdict> {
     match &run.run.result {
         RunResult::Maps(maps) => Some(&maps.verdict),
         RunResult::NoMap { .. } => None,
     }
 }
 
-pub(crate) fn pass(run: &SweepRun) -> MapPass {
+pub(super) fn pass(run: &SweepRun) -> MapPass {
     match &run.run.result {
         RunResult::Maps(maps) => maps.maps[0].pass,
         RunResult::NoMap { .. } => panic!("{run}: no map"),

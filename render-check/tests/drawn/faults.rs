@@ -3,12 +3,10 @@
 
 #![allow(clippy::disallowed_methods, reason = "only the fitting path needs the same bits on every platform")]
 
-mod common;
-
 use std::collections::HashMap;
 use std::path::Path;
 
-use common::{pass, sweep, verdict};
+use super::common::{pass, sweep, verdict};
 use render_check::cmd::sweep::SweepRun;
 use render_check::maps::Technique;
 use render_check::run::RunResult;

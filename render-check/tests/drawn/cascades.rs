@@ -1,11 +1,9 @@
 //! A view in slices, each with a map of its own, against the truth. The hard cases are in `sweep.rs`.
 
-mod common;
-
 use std::path::Path;
 use std::time::Duration;
 
-use common::gpu;
+use super::common::gpu;
 use render_check::gpu::{Filter, Gpu};
 use render_check::maps::{Slicing, SplitArg, Technique};
 use render_check::run::{FittedMaps, MapRun, Options, run, run_fitted};
