@@ -110,118 +110,42 @@
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
-mod aliasing;
-mod along;
-mod angle;
-mod axis;
-mod best;
-mod bias;
-mod bounds;
-mod clip_space;
+pub mod cascades;
 mod convex;
-mod cube;
-mod cull;
-mod decode;
+pub mod depth;
 mod error;
-mod filter;
 mod fit;
 pub mod focus;
-mod frame;
-mod frustum;
-mod homography;
-#[cfg(feature = "serde")]
-mod infinity;
-mod integral;
-mod light;
-mod limit;
+pub mod input;
 pub mod map;
-mod narrow;
-mod normal_offset;
-mod numbers;
-mod offset;
-mod paraboloid;
+mod math;
+#[cfg(feature = "std")]
+pub mod mesh;
+pub mod multiview;
+pub mod omni;
 #[cfg(feature = "parry3d")]
 mod parry;
-mod perspective;
 #[cfg(feature = "std")]
 pub mod plan;
-mod quality;
-mod rays;
-#[cfg(feature = "spade")]
-mod refine;
-mod refusal;
-mod rounding;
-mod scene;
-#[cfg(feature = "std")]
-mod second_depth;
 mod settings;
-mod shared;
-mod slices;
-#[cfg(feature = "std")]
-mod solidity;
-mod splat;
-mod stable;
-mod surrounded;
-mod tolerance;
-mod view;
-mod virtual_sample;
 pub mod warp;
 #[cfg(feature = "wgsl")]
 pub mod wgsl;
 
-pub use clip_space::ClipSpace;
 pub use error::InputError;
-pub use filter::Filter;
 pub use fit::{Empty, Outcome, fit};
+pub use focus::surrounded::Surrounded;
 pub use focus::{Focus, FocusForm};
 pub use glam;
-pub use light::Light;
-pub use map::ShadowMap;
-pub use quality::DepthFormat;
-pub use refusal::WarpFallback;
-pub use scene::{Aabb, Scene};
+pub use input::clip_space::ClipSpace;
+pub use input::light::Light;
+pub use input::scene::{Aabb, Scene};
+pub use input::view::View;
+pub use map::quality::DepthFormat;
+pub use map::shadow_map::ShadowMap;
+pub use settings::fallback::WarpFallback;
+pub use settings::filter::Filter;
 pub use settings::{Effort, Origin, Settings, Warp};
-pub use surrounded::Surrounded;
-pub use view::View;
-
-/// Input.
-pub mod input {
-    pub use crate::clip_space::{DepthRange, TextureOrigin, YAxis};
-    pub use crate::error::{Expected, Hint, InputErrorKind, MAX_COORDINATE, MIN_DISTANCE};
-    pub use crate::light::LightPlanes;
-    pub use crate::numbers::IntoMatrix;
-    pub use crate::scene::{Bounding, ConvexScene, DAabb};
-    pub use crate::view::{FrustumPlanes, Lens, Tangents};
-}
-/// Cascades.
-pub mod cascades {
-    pub use crate::slices::{
-        AtlasTile, Cascade, CascadeLayout, CascadeMaps, CascadeSplits, CascadeUniform, Cascades, CascadesReport,
-        SplitScheme, TextureExtent,
-    };
-}
-/// Omni.
-pub mod omni {
-    pub use crate::cube::CubeFace;
-    pub use crate::paraboloid::{Paraboloid, ParaboloidRounding, Paraboloids};
-}
-/// Depth.
-pub mod depth {
-    pub use crate::bias::DepthBias;
-    pub use crate::offset::ReceiverOffset;
-    #[cfg(feature = "std")]
-    pub use crate::second_depth::{Culling, DepthTest};
-    pub use crate::splat::Splat;
-    pub use crate::tolerance::{ComparisonTolerance, RASTER_GRID};
-    pub use crate::virtual_sample::{Decision, MIN_SIN_INCIDENCE, ShadowSample, TangentPlane};
-}
-/// Mesh.
-#[cfg(feature = "std")]
-pub mod mesh {
-    #[cfg(feature = "spade")]
-    pub use crate::refine::{NewVertex, Tessellation, Tessellator};
-    pub use crate::solidity::{OpenShape, Solidity, SolidityReport};
-}
 
 /// The examples of the repository's pages, which are tests.
 #[cfg(doctest)]

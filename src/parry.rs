@@ -5,7 +5,7 @@ extern crate alloc;
 use crate::convex::{ConvexBody, Plane};
 use crate::error::{InputError, check};
 use crate::focus::farthest_corner;
-use crate::scene::{Aabb, ConvexScene};
+use crate::input::scene::{Aabb, ConvexScene};
 use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
 use parry3d::math::Vector;

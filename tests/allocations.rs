@@ -6,8 +6,8 @@ use shadowfit::{
     Aabb, ClipSpace, DepthFormat, Effort, Focus, FocusForm, Light, Origin, Outcome, Scene, Settings, View, Warp,
     cascades::{CascadeLayout, CascadeSplits, Cascades, SplitScheme},
     fit,
-    focus::SharedFocus,
     input::ConvexScene,
+    multiview::SharedFocus,
     warp::{Shift, classify},
 };
 use std::hint::black_box;

@@ -379,7 +379,7 @@ fn a_refused_warp_is_the_uniform_map() {
         let refused = map(focus.fit(&settings(warp)));
         let uniform = map(focus.fit(&settings(Warp::Uniform)));
         assert_eq!(refused.fallback(), Some(reason), "{light:?}, {warp:?}");
-        assert_eq!(refused.report(&focus).refusal, Some(reason));
+        assert_eq!(refused.report(&focus).fallback, Some(reason));
         assert!(!reason.to_string().is_empty());
         assert_eq!(refused.clip_from_world(), uniform.clip_from_world());
         assert_eq!((refused.warp_ratio(), refused.weakening()), (1.0, 1.0));

@@ -178,8 +178,8 @@ fn spots_turn_about_their_axis() {
         let up = DVec3::new(f64::sin(roll), 0.7, f64::cos(roll));
         let turned = spot.with_up(up).expect("across");
         let square = Light::pyramid((0.0, 9.0, 0.0), (0.0, -1.0, 0.0), up, [tangent; 2], 0.1, 30.0).expect("sound");
-        for (a, b) in turned.planes()[..4].iter().zip([2, 3, 0, 1].map(|side| square.planes()[side])) {
-            let found = square.planes()[..4].iter().any(|plane| {
+        for (a, b) in turned.planes().as_slice()[..4].iter().zip([2, 3, 0, 1].map(|side| square.planes()[side])) {
+            let found = square.planes().as_slice()[..4].iter().any(|plane| {
                 let (a, b) = (a.normalized(), plane.normalized());
                 (a.normal - b.normal).length() < 1e-12 && (a.offset - b.offset).abs() < 1e-12
             });
@@ -254,5 +254,5 @@ fn lights_within_planes() {
     }
     let point = Light::point((0.0, 9.0, 0.0), 0.1, 60.0).expect("sound").within(&[wall]).expect("a wall");
     let face = point.cube_face(CubeFace::NegativeY, 0.0).expect("all around");
-    assert_eq!(face.planes().last(), point.planes().last());
+    assert_eq!(face.planes().iter().last(), point.planes().iter().last());
 }

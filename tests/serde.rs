@@ -238,7 +238,7 @@ fn results() {
         "part must lie in [-0.5, 2⁴⁰]; got -2",
     );
     comes_back::<Footprint>(map.footprint(focus.receiver_volume().vertices()[0]).unwrap());
-    comes_back::<Plane>(report.body.planes().next().unwrap());
+    comes_back::<Plane>(focus.caster_volume(FocusForm::ReceiverHull).planes().next().unwrap());
     comes_back(Aabb::new(Vec3::NEG_ONE, Vec3::ONE * 0.1));
     comes_back([Empty::NoReceivers, Empty::NoCasters]);
     let (min, max) = focus.receiver_volume().bounds().unwrap();

@@ -178,7 +178,7 @@ fn what_nobody_sees_is_dropped() {
     assert!(maps.outcomes()[3].map().is_some());
     assert!(slices[1].focus.receiver_volume().is_empty() && slices[2].focus.receiver_volume().is_empty());
     let report = maps.report();
-    assert_eq!((report.slices, report.maps, report.worst), (4, 1, Some(3)));
+    assert_eq!((report.cascades, report.maps, report.worst), (4, 1, Some(3)));
     assert_eq!((report.nothing_visible, report.nothing_casts, report.surrounded), (2, 1, 0));
     assert_eq!(report.texels, 2048 * 2048);
     let whole = maps.report_of(3).unwrap();

@@ -1,9 +1,9 @@
 //! What a plan may spend.
 
 use crate::error::{InputError, InputErrorKind, check};
-use crate::filter::Filter;
-use crate::quality::DepthFormat;
+use crate::map::quality::DepthFormat;
 use crate::settings::Settings;
+use crate::settings::filter::Filter;
 
 /// What a plan may spend, and what is enough.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use crate::convex::Plane;
 use crate::focus::farthest_corner;
-use crate::scene::Aabb;
+use crate::input::scene::Aabb;
 use glam::{DVec3, Vec3};
 use std::vec::Vec;
 

@@ -7,14 +7,14 @@ use super::reason::Reason;
 use super::seen::{Seen, points};
 use super::{Kind, LightPlan, Pass, Projection};
 use crate::convex::Plane;
-use crate::filter::Filter;
+use crate::depth::second_depth::DepthTest;
 use crate::fit::{Empty, Outcome};
 use crate::focus::{Focus, FocusForm};
-use crate::light::Light;
-use crate::scene::{Aabb, Scene};
-use crate::second_depth::DepthTest;
+use crate::input::light::Light;
+use crate::input::scene::{Aabb, Scene};
+use crate::mesh::Solidity;
+use crate::settings::filter::Filter;
 use crate::settings::{Settings, Shift, Warp};
-use crate::solidity::Solidity;
 use glam::DVec3;
 use std::vec::Vec;
 
@@ -108,7 +108,7 @@ pub(super) struct Planner<'a> {
 impl Planner<'_> {
     /// Plans one light and appends what its passes draw to `casters`.
     pub(super) fn plan(&self, light: &Light, reach: &mut Reach, casters: &mut Vec<u32>) -> LightPlan {
-        reach.gather(self.seen, self.objects, &loosened(&light.planes(), self.objects.extent));
+        reach.gather(self.seen, self.objects, &loosened(light.planes().as_slice(), self.objects.extent));
         if reach.receivers.is_empty() {
             return LightPlan::nothing(Reason::NoReceivers);
         }

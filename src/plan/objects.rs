@@ -2,8 +2,8 @@
 
 use super::groups::Groups;
 use crate::error::{InputError, InputErrorKind, check};
-use crate::scene::{Aabb, checked_box, of_boxes};
-use crate::solidity::{OpenShape, Solidity, SolidityReport};
+use crate::input::scene::{Aabb, checked_box, of_boxes};
+use crate::mesh::{OpenShape, Solidity, SolidityReport};
 use glam::DVec3;
 use std::vec::Vec;
 

@@ -3,12 +3,12 @@
 use super::light::{Candidate, Found, Planner, Reach, WORTH};
 use super::reason::Reason;
 use super::{Kind, Projection};
-use crate::angle;
-use crate::cube::CubeFace;
 use crate::fit::Empty;
 use crate::focus::Focus;
-use crate::paraboloid::{Paraboloid, Paraboloids};
-use crate::scene::{Aabb, Scene};
+use crate::input::light::CubeFace;
+use crate::input::scene::{Aabb, Scene};
+use crate::math::angle;
+use crate::omni::{Paraboloid, Paraboloids};
 use glam::DVec3;
 use std::vec::Vec;
 

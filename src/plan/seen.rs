@@ -2,11 +2,11 @@
 
 use super::groups::{Groups, loosened};
 use super::objects::Objects;
-use crate::bounds::Interval;
 use crate::convex::Polyhedron;
 use crate::focus::{Focus, VIEW_IDS, clip_all, farthest_corner};
-use crate::scene::{Aabb, Region};
-use crate::view::View;
+use crate::input::scene::{Aabb, Region};
+use crate::input::view::View;
+use crate::math::bounds::Interval;
 use glam::DVec3;
 use std::vec::Vec;
 
@@ -19,7 +19,7 @@ pub(super) struct Seen {
 impl Seen {
     pub(super) fn new(view: &View, objects: &Objects) -> Self {
         let mut visible = Vec::new();
-        let planes = loosened(&view.planes(), objects.extent);
+        let planes = loosened(view.planes().as_slice(), objects.extent);
         objects.receivers.for_each_inside(&planes, |id, one| visible.push((id, *one)));
         let view = narrowed(view, &visible, objects.extent).unwrap_or(*view);
         // They come sorted.
@@ -48,7 +48,7 @@ fn narrowed(view: &View, visible: &[(u32, Aabb)], extent: DVec3) -> Option<View>
         found.max = found.max.max(depth.max);
         if depth.min < found.min {
             body.set_box(one.min.as_dvec3(), one.max.as_dvec3());
-            clip_all(&mut body, &view.planes(), VIEW_IDS, extent, |_, _| ());
+            clip_all(&mut body, view.planes().as_slice(), VIEW_IDS, extent, |_, _| ());
             body.positions().for_each(|point| found.min = found.min.min(view.depth(point)));
         }
     }

@@ -1,8 +1,8 @@
 //! The light-space perspective: LiSPSM.
 
 use super::{MAX_RATIO, NEAREST, Proposed, Visible};
-use crate::refusal::WarpFallback;
-use crate::view::Lens;
+use crate::input::view::Lens;
+use crate::settings::fallback::WarpFallback;
 use glam::{DVec2, DVec3};
 
 /// The light-space perspective warp (Wimmer, Scherzer & Purgathofer 2004): a perspective across the light, along the view as
@@ -15,7 +15,7 @@ use glam::{DVec2, DVec3};
 ///     n_opt = (z_n + √(z_n z_f)) / sin γ      z_f = z_n + d sin γ
 /// ```
 ///
-/// Along the warp, eye depth on a plane across the light grows by sin γ for each unit. Measured by that depth, h, no
+/// LinearDepth the warp, eye depth on a plane across the light grows by sin γ for each unit. Measured by that depth, h, no
 /// sine is left, and no pole: with R between h₀ and h₁,
 ///
 /// ```text

@@ -3,19 +3,25 @@
 //! Each warp is a file with a function `propose`: from what is visible to c, in closed form, or the reason why there is none.
 //! What they share is here.
 
+pub(crate) mod homography;
 pub(crate) mod light_space;
-pub(crate) mod perspective;
+pub(crate) mod psm;
+pub(crate) mod rays;
+pub(crate) mod rounding;
+pub(crate) mod search;
+pub(crate) mod stable;
 pub(crate) mod trapezoidal;
+pub(crate) mod virtual_camera;
 mod worth;
 
-use crate::bounds::{Interval, Rectangle, most};
 use crate::convex::Plane;
-use crate::homography::Frame;
-pub use crate::perspective::{ClassKind, LightClass, NearCase, VirtualCamera, classify};
-use crate::rays::{Functional, Rays};
-use crate::rounding::{AWAY_FROM_LAMP, UNITS};
+use crate::input::view::View;
+use crate::math::bounds::{Interval, Rectangle, most};
 pub use crate::settings::Shift;
-use crate::view::View;
+use crate::warp::homography::Frame;
+use crate::warp::rays::{Functional, Rays};
+use crate::warp::rounding::{AWAY_FROM_LAMP, UNITS};
+pub use crate::warp::virtual_camera::{ClassKind, LightClass, NearCase, VirtualCamera, classify};
 use glam::{DVec2, DVec3, DVec4};
 pub(crate) use worth::Samples;
 

@@ -1,9 +1,9 @@
 //! The trapezoidal map: TSM.
 
 use super::{MAX_RATIO, Proposed, Visible};
-use crate::rays::Functional;
-use crate::refusal::WarpFallback;
-use crate::view::Lens;
+use crate::input::view::Lens;
+use crate::settings::fallback::WarpFallback;
+use crate::warp::rays::Functional;
 use glam::DVec3;
 
 /// The trapezoidal warp (Martin & Tan 2004): of the trapezoid around what is visible, the part that lies next to the viewer,

@@ -1,10 +1,10 @@
 //! What a warp is worth where surfaces may be: its texels and its bias against the uniform map's.
 
 use super::in_window;
-use crate::bounds::{Rectangle, least, most};
 use crate::convex::Plane;
 use crate::focus::Focus;
-use crate::rays::{Functional, Rays};
+use crate::math::bounds::{Rectangle, least, most};
+use crate::warp::rays::{Functional, Rays};
 use glam::DVec2;
 
 /// Points of R that stand for the surfaces seen in it.

@@ -4,13 +4,13 @@
 //! them. What they need they take as arguments: matrices as this crate gives them, textures, samplers. All names begin
 //! with `shadowfit_`.
 
+mod cascades;
 mod frustum;
-mod slices;
 #[cfg(test)]
 mod validation;
 
+pub use cascades::CASCADES;
 pub use frustum::{BETWEEN_LAYERS, FILTERS, MAP, MAP_ARRAY, PROJECT, VIRTUAL_SAMPLES};
-pub use slices::CASCADES;
 
 /// Paraboloid maps, drawn and read, see [`Paraboloid`](crate::omni::Paraboloid). `ShadowfitParaboloidVertex` can be what a vertex shader
 /// gives and a fragment shader takes, as it is; the fragment shader writes the depth that it is given.

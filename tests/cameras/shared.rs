@@ -4,8 +4,8 @@ use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use shadowfit::{
     ClipSpace, Focus, Light, Origin, Outcome, Scene, Settings, View, Warp,
-    focus::SharedFocus,
     input::{InputErrorKind, Tangents},
+    multiview::SharedFocus,
 };
 use std::cell::Cell;
 use testkit::arbitrary::{case, points_of, run, settings};

@@ -39,8 +39,8 @@ fn assert_nothing_is_lost(
     what: &str,
 ) -> ConvexBody {
     let focus = Focus::new(view, light, scene);
-    let lit = [of_scene.clone(), exact(&light.planes())].concat();
-    let of_view = exact(&view.planes());
+    let lit = [of_scene.clone(), exact(light.planes().as_slice())].concat();
+    let of_view = exact(view.planes().as_slice());
     let visible = focus.receiver_volume();
     assert_holds(&visible, &vertices(&[lit.clone(), of_view.clone()].concat()), &what);
     let hull = hull(&of_view, &homogeneous(light.homogeneous()));

@@ -105,7 +105,7 @@ impl Split {
     pub fn ends(&self) -> Option<[f32; Cascades::MAX]> {
         let Self::Depths { slices, .. } = self else { return None };
         let mut ends = [f32::MAX; Cascades::MAX];
-        for (end, slice) in ends.iter_mut().zip(&slices[..slices.len() - 1]) {
+        for (end, slice) in ends.iter_mut().zip(&slices.as_slice()[..slices.len() - 1]) {
             *end = slice.far as f32;
         }
         Some(ends)

@@ -233,7 +233,7 @@ impl FittedMaps {
         if let (Split::Depths { cuts, .. }, [light]) = (&self.split, &self.lights[..]) {
             let slices = slices(view, light, &stage.bounds, *cuts);
             return slices
-                .map_or(0, |slices| (0..).zip(&*slices).map(|(part, slice)| maps(part, &slice.focus)).sum());
+                .map_or(0, |slices| (0..).zip(slices.iter()).map(|(part, slice)| maps(part, &slice.focus)).sum());
         }
         let of_light = |(part, light)| maps(part, &Focus::new(view, light, &stage.bounds));
         self.lights.iter().enumerate().map(of_light).sum()

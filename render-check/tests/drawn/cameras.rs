@@ -11,10 +11,7 @@ use render_check::scene::{self, LightSpec, Mesh};
 use render_check::stage::Stage;
 use render_check::trace::Tracer;
 use shadowfit::glam::{DMat4, DVec3, DVec4};
-use shadowfit::{
-    ClipSpace, FocusForm, Outcome, View,
-    focus::{Plane, SharedFocus},
-};
+use shadowfit::{ClipSpace, FocusForm, Outcome, View, focus::Plane, multiview::SharedFocus};
 
 const IMAGE: [u32; 2] = [160, 100];
 const MAP: u32 = 512;

@@ -74,7 +74,7 @@ impl<T: Number> Plain<T> {
         let given = view.planes();
         // A far plane at infinity is one of V's too: a light at a position is inside of it.
         let infinity = Plane::new((0.0, 0.0, 0.0).into(), view.near());
-        let planes: [Row<T>; 6] = std::array::from_fn(|i| row(given.get(i).unwrap_or(&infinity)));
+        let planes: [Row<T>; 6] = std::array::from_fn(|i| row(given.as_slice().get(i).unwrap_or(&infinity)));
         let values = planes.each_ref().map(|plane| on(plane, &l));
         self.hull.clear();
         let bounds = planes[..given.len()].iter().zip(&values).filter(|(_, value)| **value >= zero);

@@ -108,7 +108,7 @@ fn around_cone(case: &Case<'_>) -> Option<Mat4> {
     let position = case.light.position()?;
     // Four sides, then near and far: opposite sides add up to the axis, and differ by what is across.
     let planes = case.light.planes();
-    let [right, left, top, bottom, near, far] = planes.get(..6)?.try_into().ok()?;
+    let [right, left, top, bottom, near, far] = planes.as_slice().get(..6)?.try_into().ok()?;
     let axis = (right.normal + left.normal).normalize();
     let across = |one: DVec3, other: DVec3| 0.5 * (other - one) / (0.5 * (one + other)).length();
     let [u, v] = [across(right.normal, left.normal), across(top.normal, bottom.normal)];

@@ -98,12 +98,12 @@ impl Truth {
     pub(crate) fn new(view: &View, light: &Light, receiving: &[Plane], casting: &[Plane]) -> Option<Self> {
         let lit = light.planes();
         let of = |planes: &[Plane]| planes.iter().map(exact).collect::<Vec<_>>();
-        let visible = Exact::new([of(receiving), of(&view.planes()), of(&lit)].concat())?;
+        let visible = Exact::new([of(receiving), of(view.planes().as_slice()), of(lit.as_slice())].concat())?;
         let mut points: Vec<ExactPoint> = visible.body.vertices.iter().map(|vertex| vertex.point.clone()).collect();
         points.push(Homogeneous::from_f64(light.homogeneous().to_array()));
         let has_normal = |plane: &ExactPlane| plane.xyz().iter().any(|component| !component.is_zero());
         let hull = generators(&points).into_iter().map(|ray| ray.vector).filter(has_normal).collect();
-        let body = Exact::new([hull, of(casting), of(&lit)].concat())?;
+        let body = Exact::new([hull, of(casting), of(lit.as_slice())].concat())?;
         Some(Self { visible, body })
     }
 }
@@ -125,8 +125,11 @@ impl TownTruth {
     /// Where a box of the town is no box.
     pub(crate) fn new(case: &Case<'_>, town: &Town) -> Result<Option<Self>> {
         let scene = case.scene_planes();
-        let lit_view: Vec<ExactPlane> =
-            [&scene[..], &case.view.planes(), &case.light.planes()].concat().iter().map(exact).collect();
+        let lit_view: Vec<ExactPlane> = [&scene[..], case.view.planes().as_slice(), case.light.planes().as_slice()]
+            .concat()
+            .iter()
+            .map(exact)
+            .collect();
         let Some(lit_view) = Exact::new(lit_view) else { return Ok(None) };
         let receivers: Vec<Aabb> = town.receivers.iter().copied().filter(|one| lit_view.meets(one)).collect();
         if receivers.is_empty() {

@@ -59,7 +59,10 @@ fn check_casters(
     for _ in 0..100 {
         let receiver = &town[rng.random_range(0..town.len())];
         let seen = in_box(rng, &receiver.bounds);
-        if !receiver.receives || !is_inside(&view.planes(), seen) || !is_inside(&light.planes(), seen) {
+        if !receiver.receives
+            || !is_inside(view.planes().as_slice(), seen)
+            || !is_inside(light.planes().as_slice(), seen)
+        {
             continue;
         }
         // The planes of L hold all that a light reaches, and corners beyond.
@@ -70,7 +73,7 @@ fn check_casters(
         for _ in 0..4 {
             let caster = seen + to_light * rng.random_range(0.0..1.0);
             let is_too_near = light.position().is_some_and(|at| at.distance(caster) < 1.01 * light.near());
-            if is_too_near || !is_inside(&light.planes(), caster) {
+            if is_too_near || !is_inside(light.planes().as_slice(), caster) {
                 continue;
             }
             for (id, object) in (0..).zip(town) {

@@ -1,10 +1,7 @@
 //! One map for several views: all that any of them sees is in it, and what casts on that.
 
 use shadowfit::glam::{DQuat, DVec3};
-use shadowfit::{
-    ClipSpace, Empty, FocusForm, Outcome, Settings, View,
-    focus::{ConvexBody, SharedFocus},
-};
+use shadowfit::{ClipSpace, Empty, FocusForm, Outcome, Settings, View, focus::ConvexBody, multiview::SharedFocus};
 
 use crate::arbitrary::{Case, SceneParams, points_of};
 

@@ -95,7 +95,7 @@ pub fn every_depth_is_in_one(case: &Case, cutting: &Cutting, settings: &Settings
     let view = &together.view;
     assert!((1..=cutting.count).contains(&slices.len()));
     assert_eq!((slices[0].near, slices[slices.len() - 1].far), (view.near(), view.far()));
-    for pair in slices.windows(2) {
+    for pair in slices.as_slice().windows(2) {
         assert_eq!(pair[0].far, pair[1].near);
         assert_eq!(pair[0].far, f64::from(pair[0].far as f32));
         assert!(pair[0].near <= pair[0].blend && pair[0].blend <= pair[0].far);
@@ -112,7 +112,7 @@ pub fn every_depth_is_in_one(case: &Case, cutting: &Cutting, settings: &Settings
         let blend = slices.blend_at(depth);
         assert!((0.0..=1.0).contains(&blend) && (blend == 0.0 || depth > slice.blend), "{blend} at {depth}");
         assert!(blend == 0.0 || index + 1 < slices.len());
-        // As `shadowfit_slice_at` counts.
+        // As `shadowfit_cascade_at` counts.
         let single = depth as f32;
         let of_shader = uniform.far.iter().filter(|far| single >= **far).count().min(Cascades::MAX - 1);
         // Which is for depths that are finite.

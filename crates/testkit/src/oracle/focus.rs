@@ -65,9 +65,15 @@ impl Input {
             lit.extend([Plane::new(normal, -min[axis]), Plane::new(-normal, max[axis])]);
         }
         lit.extend(cuts);
-        lit.extend_from_slice(&light.planes());
+        lit.extend_from_slice(light.planes().as_slice());
         let extent = DVec3::from(min).abs().max(DVec3::from(max).abs());
-        Some(Self { view, v: view.planes().to_vec(), lit, light: light.homogeneous().to_array(), extent })
+        Some(Self {
+            view,
+            v: view.planes().as_slice().to_vec(),
+            lit,
+            light: light.homogeneous().to_array(),
+            extent,
+        })
     }
 
     /// The crate's R, the paper's H and the tight H.

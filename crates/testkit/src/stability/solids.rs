@@ -24,12 +24,12 @@ fn with_columns(first: &'static str) -> Vec<&'static str> {
 fn compare(table: &mut Table, name: &str, setup: &Setup) {
     let (view, light, scene) = (setup.camera.view(), setup.lamp.light(), setup.scene());
     let exact = |planes: &[Plane]| -> Vec<V4<Big>> { planes.iter().map(|p| homogeneous(p.to_row())).collect() };
-    let mut planes = hull(&exact(&view.planes()), &homogeneous(light.homogeneous()));
+    let mut planes = hull(&exact(view.planes().as_slice()), &homogeneous(light.homogeneous()));
     for (axis, normal) in DVec3::AXES.into_iter().enumerate() {
         planes.push(homogeneous(normal.extend(-setup.min[axis])));
         planes.push(homogeneous((-normal).extend(setup.max[axis])));
     }
-    planes.extend(exact(&light.planes()));
+    planes.extend(exact(light.planes().as_slice()));
     let body = vertices(&planes);
     let size = (setup.max - setup.min).max_element();
     let ours = Focus::new(&view, &light, &scene).caster_volume(FocusForm::ViewHull).vertices().to_vec();

@@ -8,11 +8,11 @@
 
 // Which layer answers for which directions from the light, or for which depths before the eye.
 struct Split {
-    // The light's position, relative to what surfaces are; w is 1 where the parts are slices.
+    // The light's position, relative to what surfaces are; w is 1 where the parts are cascades.
     light: vec4<f32>,
     // What such a position, and 1, are multiplied by for the depth before the eye.
     depth: vec4<f32>,
-    // The depth where each slice ends.
+    // The depth where each cascade ends.
     far: array<vec4<f32>, 2>,
     // The axis of each part and, in w, its layer; −1 where nothing needs a map.
     parts: array<vec4<f32>>,
@@ -36,10 +36,10 @@ fn fragment(@builtin(position) pixel: vec4<f32>) -> @location(0) vec2<f32> {
     return share_of_light(layer, vec2<u32>(pixel.xy), place_in(layer, surface.xyz));
 }
 
-// The layer of the slice, or of the part whose axis is nearest to the direction from the light; the first one of two as near.
+// The layer of the cascade, or of the part whose axis is nearest to the direction from the light; the first one of two as near.
 fn layer_of(position: vec3<f32>) -> i32 {
     if (split.light.w > 0.0) {
-        return i32(split.parts[shadowfit_slice_at(split.far, dot(split.depth, vec4(position, 1.0)))].w);
+        return i32(split.parts[shadowfit_cascade_at(split.far, dot(split.depth, vec4(position, 1.0)))].w);
     }
     let from_light = position - split.light.xyz;
     var nearest = split.parts[0];

@@ -1,0 +1,186 @@
+//! Several maps for one light: the view cut into cascades in depth, and each fitted on its own.
+
+mod layout;
+mod maps;
+mod split;
+mod uniform;
+
+pub use layout::{AtlasTile, CascadeLayout, TextureExtent};
+pub use maps::{CascadeMaps, CascadesReport};
+pub use split::{CascadeSplits, SplitScheme};
+pub use uniform::CascadeUniform;
+
+use crate::convex::Polyhedron;
+use crate::error::{InputError, MAX_COORDINATE, check};
+use crate::fit::{Empty, Outcome};
+use crate::focus::Focus;
+use crate::input::light::Light;
+use crate::input::scene::Scene;
+use crate::input::view::View;
+use crate::math::bounds::{Interval, most};
+use crate::math::list::list;
+use crate::settings::Settings;
+use glam::DVec3;
+use split::rounded;
+
+/// A view cut into cascades in depth, each with a focus of its own (parallel-split, or cascaded, shadow maps: Zhang et al.
+/// 2006; Engel, *Cascaded Shadow Maps*, ShaderX5, 2006).
+///
+/// A cascade is a [narrowed](View::narrowed) view, so that its bodies, its fit, culling, bias and report are those of any fit.
+///
+/// ```text
+///     view's near                                                          view's far
+///     ├─────────────────┼───────────────────────────┼─────────────────────────────────┤
+///     │     cascade 0   ▒▒│         cascade 1       ▒▒▒▒│             cascade 2             │
+///     └─────────────────┴───────────────────────────┴─────────────────────────────────┘
+///                     ▒▒ here cascade 1 is blended in: its focus begins where this does
+/// ```
+///
+/// # Guarantees
+///
+/// - Every depth is in exactly one cascade, [`Self::index_at`]. The first begins at the view's near plane and the last ends
+///   at its far plane, so that one cascade is the view itself.
+/// - Cuts are numbers of f32, and a shader that compares in f32 finds the cascade that the CPU does.
+/// - The focus of a cascade holds all of R in the cascade, in the zone where it is blended in, and as far beyond both ends as
+///   f32 can be wrong about a depth, if it is computed from positions relative to the eye. From positions in the world
+///   it is as wrong as these are, and where that is much, a zone to blend in covers it.
+///
+/// ```
+/// use shadowfit::{Light, Scene, Settings, View};
+/// use shadowfit::cascades::{CascadeLayout, CascadeSplits, Cascades, SplitScheme};
+///
+/// let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, f64::INFINITY)?;
+/// let sun = Light::directional((0.4, 1.0, 0.2))?;
+/// let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
+///
+/// let cuts = CascadeSplits::Visible { count: 4, split: SplitScheme::Practical(0.5) };
+/// let cascades = Cascades::new(&view, &sun, &scene, cuts, 0.1)?;
+/// let maps = cascades.fit(&Settings::default());
+/// for (index, map) in maps.maps() {
+///     println!("cascade {index}, to depth {}: {}", cascades[index].far, map.caster_matrix());
+/// }
+/// println!("{:?}", maps.extent(CascadeLayout::Atlas));
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Cascades<'a> {
+    /// One at least; those past the number of cascades are copies of the first.
+    cascades: [Cascade<'a>; Cascades::MAX],
+    len: usize,
+}
+
+/// A part of a view between two depths.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Cascade<'a> {
+    /// The depth before the eye where it begins, in world units.
+    pub near: f64,
+    /// The depth from which on the next cascade is blended in; where it ends, if none is.
+    pub blend: f64,
+    /// The depth where it ends; infinite where the view's own is.
+    pub far: f64,
+    /// What is visible in it and in the zone where it is blended in, and what can cast on that.
+    pub focus: Focus<'a>,
+}
+
+/// What f32 makes of a depth, of the distance from the eye: eight roundings, of an axis, its products with the position's
+/// coordinates, their sum, and of the coordinates themselves.
+const DEPTH_ROUNDING: f64 = 8.0 / 16_777_216.0;
+
+impl<'a> Cascades<'a> {
+    /// The most cascades there can be.
+    pub const MAX: usize = 8;
+
+    /// Cuts a view.
+    ///
+    /// `overlap` is the part of each cascade but the last, 0 to 1, in which the next one is blended in; the next one's map
+    /// covers it too. Of a first cascade that begins before anything is visible, it is the part where something is, if it
+    /// was cut by that.
+    ///
+    /// Of a scene of lists, each focus looks at all of them once.
+    ///
+    /// # Errors
+    ///
+    /// Names `"count"` or `"overlap"` when it is out of range, `"split"` when its part is outside 0 to 1, `"view"` when
+    /// its planes are to be split and the far one is at infinity, and `"cuts"` when they are too many, not finite, not
+    /// ascending as f32, or not between the view's planes.
+    pub fn new(
+        view: &View,
+        light: &Light,
+        scene: &Scene<'a>,
+        cuts: CascadeSplits<'_>,
+        overlap: f64,
+    ) -> Result<Self, InputError> {
+        let overlap = check::part("overlap", overlap, 1.0)?;
+        let cuts = cuts.depths(view, || visible_depths(&Focus::new(view, light, scene)))?;
+
+        // Made one after another: each begins where the one before has its next one blended in.
+        let (mut near, mut begin) = (view.near(), view.near());
+        let mut cut_to = |far: f64, from: f64| -> Result<Cascade<'a>, InputError> {
+            let is_last = far == view.far();
+            let blend = if is_last { far } else { rounded(far - overlap * (far - from)).clamp(from, far) };
+            let slack = if is_last { 0.0 } else { slack(view, far)? };
+            // No finite plane may be farther than that.
+            let end = (far + slack).min(view.far()).min(most(far, MAX_COORDINATE));
+            let focus = Focus::new(&view.narrowed(begin, end)?, light, scene);
+            let cascade = Cascade { near, blend, far, focus };
+            (near, begin) = (far, most(blend - slack, view.near()));
+            Ok(cascade)
+        };
+        let first = cut_to(cuts.first().copied().unwrap_or(view.far()), cuts.near)?;
+        let mut cascades = [(); Self::MAX].map(|()| first.clone());
+        let ends = cuts.iter().copied().skip(1).chain([view.far()]);
+        for (index, far) in (1..=cuts.len()).zip(ends) {
+            cascades[index] = cut_to(far, cascades[index - 1].far)?;
+        }
+        Ok(Self { cascades, len: cuts.len() + 1 })
+    }
+
+    /// The cascade that a depth before the eye belongs to: the first that ends beyond it, or the last.
+    #[must_use]
+    pub fn index_at(&self, depth: f64) -> usize {
+        self.iter().take(self.len - 1).filter(|cascade| depth >= cascade.far).count()
+    }
+
+    /// How much of the next cascade to blend in at a depth, 0 to 1; 0 in the last one, wherever it ends.
+    #[must_use]
+    pub fn blend_at(&self, depth: f64) -> f64 {
+        let index = self.index_at(depth);
+        let cascade = &self[index];
+        let is_last = index + 1 == self.len;
+        if depth > cascade.blend && !is_last {
+            (depth - cascade.blend) / (cascade.far - cascade.blend)
+        } else {
+            0.0
+        }
+    }
+
+    /// Fits a map for each cascade that needs one, all with the same settings.
+    #[must_use]
+    pub fn fit(&self, settings: &Settings) -> CascadeMaps<'_, 'a> {
+        let mut outcomes = [const { Outcome::Empty(Empty::NoReceivers) }; Self::MAX];
+        for (outcome, cascade) in outcomes.iter_mut().zip(self.iter()) {
+            *outcome = cascade.focus.fit(settings);
+        }
+        CascadeMaps { cascades: self, outcomes, settings: *settings }
+    }
+}
+
+list!(Cascades<'a>, Cascade<'a>, cascades, "cascades");
+
+/// The eye depths of what is visible and lit.
+fn visible_depths(focus: &Focus<'_>) -> Interval {
+    let (mut body, mut depths) = (Polyhedron::EMPTY, Interval::EMPTY);
+    focus.cut_visible(&mut body, |_, _| ());
+    body.positions().for_each(|point| depths.include(focus.view().depth(point)));
+    depths
+}
+
+/// How far from a depth f32 may take it to be, anywhere in view: by how far from the eye the frame's corners are there, and
+/// by what f64 itself rounds of an eye far out.
+fn slack(view: &View, depth: f64) -> Result<f64, InputError> {
+    let frame = view.narrowed(view.near(), depth)?.corners();
+    let distance = |corner: DVec3| (corner - view.eye()).length();
+    let farthest = frame.into_iter().flatten().map(distance).fold(0.0, most);
+    Ok(DEPTH_ROUNDING * farthest + 64.0 * f64::EPSILON * (view.eye().abs().element_sum() + farthest))
+}

@@ -1,0 +1,18 @@
+//! How depth is tested: the bias that keeps shadow acne away, second depth and virtual samples, which need none, and splats for
+//! points.
+
+pub(crate) mod bias;
+mod normal_offset;
+#[cfg(feature = "std")]
+pub(crate) mod second_depth;
+mod splat;
+mod tolerance;
+mod virtual_sample;
+
+pub use crate::map::receiver_offset::ReceiverOffset;
+pub use bias::DepthBias;
+#[cfg(feature = "std")]
+pub use second_depth::{Culling, DepthTest};
+pub use splat::Splat;
+pub use tolerance::{ComparisonTolerance, RASTER_GRID};
+pub use virtual_sample::{Decision, MIN_SIN_INCIDENCE, ShadowSample, TangentPlane};

@@ -1,0 +1,78 @@
+//! A view narrowed to what there is to be seen.
+
+use crate::convex::Polyhedron;
+use crate::focus::{VIEW_IDS, clip_all, farthest_corner};
+use crate::input::scene::{Bounds, Region, Scene};
+use crate::input::view::View;
+use crate::math::bounds::{Interval, least, most};
+use glam::DVec3;
+
+impl View {
+    /// The view between the nearest and the farthest point of the receivers in it; `None` where there is none.
+    ///
+    /// A warp follows the view from its near plane on, so that a near plane in the air, before the first receiver, wastes texels
+    /// there. What a read-back of the depth buffer says (PSM §6) the boxes say as well, less exactly. Of lists only the
+    /// receivers count, each cut by the view; of any other scene all of it. A receiver that no light reaches counts too.
+    ///
+    /// ```
+    /// use shadowfit::{Aabb, Scene, View};
+    ///
+    /// let view = View::perspective((0.0, 2.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, f64::INFINITY)?;
+    /// // One before the eye, one beside the view.
+    /// let receivers = [Aabb::new([-4.0, 0.0, -30.0], [4.0, 3.0, -20.0]), Aabb::new([50.0, 0.0, -9.0], [51.0, 1.0, -8.0])];
+    /// let narrowed = view.narrowed_to(&Scene::new(&[], &receivers)?).expect("one is in view");
+    /// assert!((narrowed.near() - 20.0).abs() < 1e-9 && (narrowed.far() - 30.0).abs() < 1e-9);
+    /// assert_eq!(view.narrowed_to(&Scene::new(&[], &receivers[1..])?), None);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
+    #[must_use]
+    pub fn narrowed_to(&self, scene: &Scene<'_>) -> Option<Self> {
+        let mut search =
+            Search { view: self, body: Polyhedron::EMPTY, found: Interval::EMPTY, extent: DVec3::ZERO };
+        match scene.bounds {
+            Bounds::Nothing => {}
+            Bounds::Box { min, max } => search.visit_box(min, max),
+            Bounds::Convex(body) => search.visit(&Region::Convex(body)),
+            Bounds::Lists { receivers, .. } => receivers.for_each(|_, one| search.visit_box(one.min, one.max)),
+        }
+        let Search { found, extent, .. } = search;
+        if found.min > found.max {
+            return None;
+        }
+        // Room for the rounding of all this and of the planes at these depths.
+        let slack = 64.0 * f64::EPSILON * (self.forward().abs().dot(extent) + self.eye().abs().element_sum());
+        let (near, far) = (most(self.near(), found.min - slack), least(self.far(), found.max + slack));
+        // What is no deeper than that has no range of its own: the view's own does.
+        self.narrowed(near, far).ok().or(Some(*self))
+    }
+}
+
+/// The range of depths so far.
+struct Search<'a> {
+    view: &'a View,
+    body: Polyhedron,
+    found: Interval,
+    /// The largest absolute coordinates of what was cut.
+    extent: DVec3,
+}
+
+impl Search<'_> {
+    /// A box, unless all that it could add has been found.
+    fn visit_box(&mut self, min: DVec3, max: DVec3) {
+        let forward = self.view.forward();
+        let depth = |along| self.view.depth(farthest_corner(min, max, along));
+        if depth(-forward) < self.found.min || depth(forward) > self.found.max {
+            self.visit(&Region::Box { min, max });
+        }
+    }
+
+    fn visit(&mut self, region: &Region<'_>) {
+        let extent = region.extent();
+        region.fill(&mut self.body);
+        clip_all(&mut self.body, self.view.planes().as_slice(), VIEW_IDS, extent, |_, _| ());
+        for point in self.body.positions() {
+            self.found.include(self.view.depth(point));
+            self.extent = self.extent.max(extent);
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! What view and projection matrices encode, in any convention.
+
+use crate::error::{InputError, InputErrorKind, check};
+use crate::input::clip_space::{ClipSpace, YAxis};
+use crate::input::frustum::{meet, rounding, rows};
+use crate::input::view::Lens;
+use glam::{DMat4, DVec2, DVec3, DVec4};
+
+/// Refuses a matrix with an entry that is NaN or infinite.
+pub(crate) fn finite(field: &'static str, matrix: &DMat4) -> Result<(), InputError> {
+    if matrix.is_finite() { Ok(()) } else { check::fail(field, InputErrorKind::NotFinite) }
+}
+
+/// Whether an affine matrix seems to be made for row vectors: its translation is in the last row.
+pub(crate) fn is_transposed_affine(matrix: &DMat4) -> bool {
+    let [x, y, z, w] = rows(matrix);
+    // Roundings alone make a last row that is not (0, 0, 0, 1), but none of this size.
+    [x, y, z].iter().all(|row| row.offset == 0.0) && w.offset == 1.0 && w.normal.length() > 1e-3
+}
+
+/// Whether a perspective matrix seems to be made for row vectors: its ±1 stands where near · far should.
+pub(crate) fn is_transposed_perspective(matrix: &DMat4) -> bool {
+    let [x, y, z, w] = rows(matrix);
+    let depth_only = (x.normal.z, y.normal.z, w.normal.x, w.normal.y, w.offset) == (0.0, 0.0, 0.0, 0.0, 0.0);
+    depth_only && z.offset.abs() == 1.0 && w.normal.z != 0.0 && w.normal.z.abs() != 1.0
+}
+
+/// Whether w of a matrix from world to clip space is depth in world units, as it is in the products of most cameras.
+pub(crate) fn has_depth_in_units(clip_from_world: &DMat4) -> bool {
+    let [.., w] = rows(clip_from_world);
+    (w.normal.length_squared() - 1.0).abs() < 1e-3
+}
+
+/// The point that a matrix takes to the origin.
+pub(crate) fn origin(eye_from_world: &DMat4) -> Option<DVec3> {
+    let [x, y, z, _] = rows(eye_from_world);
+    let point = meet(&x, &y, &z);
+    point.is_finite().then_some(point)
+}
+
+/// What a view matrix encodes; `backward` is the world-space image of the eye's +z.
+pub(crate) struct EyeAxes {
+    pub(crate) eye: DVec3,
+    pub(crate) right: DVec3,
+    pub(crate) up: DVec3,
+    pub(crate) backward: DVec3,
+    pub(crate) world_per_eye: f64,
+}
+
+impl EyeAxes {
+    /// The world-space axes and position of the eye that a view matrix encodes, if it is, to its rounding, a rotation or
+    /// reflection, a uniform scale and a translation.
+    pub(crate) fn of(eye_from_world: &DMat4) -> Option<Self> {
+        let rows = eye_from_world.transpose();
+        let [right, up, backward] = [rows.x_axis, rows.y_axis, rows.z_axis].map(DVec4::truncate);
+        let scale = backward.length();
+        let tolerance = 16.0 * rounding(eye_from_world) * scale;
+        let square = |a: DVec3, b: DVec3| a.dot(b).abs() <= tolerance * scale;
+        let rigid = rows.w_axis == DVec4::W
+            && scale > 0.0
+            && (right.length() - scale).abs() <= tolerance
+            && (up.length() - scale).abs() <= tolerance
+            && square(right, up)
+            && square(up, backward)
+            && square(backward, right);
+        if !rigid {
+            return None;
+        }
+        // The eye is the point that the matrix takes to the origin: three planes through it, met by Cramer's rule.
+        let translation = DVec3::new(rows.x_axis.w, rows.y_axis.w, rows.z_axis.w);
+        let determinant = right.dot(up.cross(backward));
+        let eye = -(up.cross(backward) * translation.x
+            + backward.cross(right) * translation.y
+            + right.cross(up) * translation.z)
+            / determinant;
+        // Orthonormal to the last bit: the view axis as given, the others square to it, on the side they were on.
+        let backward = backward / scale;
+        let up = (up - backward * up.dot(backward)).normalize();
+        let right = up.cross(backward) * determinant.signum();
+        Some(Self { eye, right, up, backward, world_per_eye: scale.recip() })
+    }
+}
+
+/// What a projection matrix encodes, in eye units.
+pub(crate) struct Frame {
+    pub(crate) lens: Lens,
+    /// The eye looks along this end of its z axis.
+    pub(crate) forward_sign: f64,
+    pub(crate) min: DVec2,
+    pub(crate) max: DVec2,
+    pub(crate) near: f64,
+    pub(crate) far: f64,
+}
+
+impl Frame {
+    /// The frame of a projection whose zeros are zeros: its image is not turned, and its near plane faces the eye.
+    pub(crate) fn of(clip_from_eye: &DMat4, clip: ClipSpace) -> Option<Self> {
+        let rows = clip_from_eye.transpose();
+        let (mut x, mut y, mut z, mut w) = (rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis);
+        if clip.y == YAxis::Down {
+            y = -y;
+        }
+        let perspective = w.x == 0.0 && w.y == 0.0 && w.w == 0.0 && w.z != 0.0;
+        let orthographic = w.x == 0.0 && w.y == 0.0 && w.z == 0.0 && w.w > 0.0;
+        let facing = x.y == 0.0 && y.x == 0.0 && z.x == 0.0 && z.y == 0.0;
+        if !(perspective || orthographic) || !facing {
+            return None;
+        }
+        let unit = if perspective { w.z.abs() } else { w.w };
+        (x, y, z, w) = (x / unit, y / unit, z / unit, w / unit);
+        // A plane at depth d is `value + slope · d`, for z_eye = forward_sign · d.
+        let [near_plane, far_plane] = clip.depth.ends(z, w);
+        let (lens, forward_sign, centre);
+        if perspective {
+            // x_clip / w = (x.x · x_eye + x.z · z_eye) / depth, and depth = w.
+            if x.w != 0.0 || y.w != 0.0 {
+                return None;
+            }
+            lens = Lens::Perspective;
+            forward_sign = w.z;
+            centre = DVec2::new(x.z, y.z) * forward_sign;
+        } else {
+            if x.z != 0.0 || y.z != 0.0 {
+                return None;
+            }
+            lens = Lens::Orthographic;
+            forward_sign = if near_plane.z < 0.0 { -1.0 } else { 1.0 };
+            centre = DVec2::new(x.w, y.w);
+        }
+        let depth = |plane: DVec4| -plane.w / (plane.z * forward_sign);
+        let near = depth(near_plane);
+        // A far plane may be met at infinity only, or, by a rounding, not even there.
+        let endless = perspective && far_plane.w > 0.0 && far_plane.z * forward_sign >= 0.0;
+        let far = if endless { f64::INFINITY } else { depth(far_plane) };
+        // (scale · value + centre) = ±1; a negative scale mirrors, which leaves the same frame.
+        let edge = |scale: f64, centre: f64| {
+            let (a, b) = ((-1.0 - centre) / scale, (1.0 - centre) / scale);
+            (a.min(b), a.max(b))
+        };
+        let ((left, right), (bottom, top)) = (edge(x.x, centre.x), edge(y.y, centre.y));
+        Some(Self { lens, forward_sign, min: DVec2::new(left, bottom), max: DVec2::new(right, top), near, far })
+    }
+}

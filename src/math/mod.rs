@@ -1,0 +1,9 @@
+//! Small mathematics that knows nothing of shadows.
+
+pub(crate) mod angle;
+pub(crate) mod axis;
+pub(crate) mod bounds;
+pub(crate) mod frame;
+#[cfg(feature = "serde")]
+pub(crate) mod infinity;
+pub(crate) mod list;

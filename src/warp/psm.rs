@@ -1,0 +1,54 @@
+//! The camera's own perspective: perspective shadow maps.
+
+use super::{MAX_RATIO, NEAREST, Proposed, Visible};
+use crate::convex::Plane;
+use crate::math::bounds::{Interval, most};
+use crate::warp::virtual_camera::after_perspective;
+use glam::DVec3;
+
+/// The perspective warp: w as the light's own camera has it, which stands at λ and looks at the middle of the unit cube
+/// that the camera's perspective makes of its frustum (Stamminger & Drettakis 2002, §3.2).
+///
+/// With the target at the origin of post-perspective space, g = −λ/|λ|, and the plane through the light of DESIGN
+/// section 2, `c = λw·A(g) − (g·λ) C₃`, becomes a polynomial in λ, times |λ|:
+///
+/// ```text
+///     c = |λxyz|² C₃ − λw (λx C₀ + λy C₁ + λz C₂)
+/// ```
+///
+/// It is finite for every class of light. It is C₃, the camera's own depth, for a light that becomes directional, and
+/// constant, the uniform map, for a light along the view. But it may vanish inside R: a light on the infinity plane
+/// stands 2n/(f − n) behind the far face of the cube, and corners of the cube lie behind it. Then it is weakened, see
+/// [`allowed_ratio`] and [`Visible::weakened`].
+pub(crate) fn propose<P: Iterator<Item = DVec3> + Clone>(
+    visible: &Visible<'_, P>,
+    camera: &[Plane; 4],
+) -> Proposed {
+    let lambda = after_perspective(camera, visible.l);
+    let [x, y, z, depth] = camera;
+    let towards = *x * lambda.x + *y * lambda.y + *z * lambda.z;
+    // Scaled to λ, so that no power of a distance grows large.
+    let size = lambda.abs().max_element();
+    let polar = *depth * (lambda.truncate() / size).length_squared() - towards * (lambda.w / size / size);
+    visible.weakened(&polar, allowed_ratio(depth, visible))
+}
+
+/// By how much c may vary over R, against the uniform map's w: by no more than the camera's own depth does, from [`NEAREST`] of
+/// the largest on. A warp is there to undo the camera's perspective, and more than that only wastes texels. Where the light makes an angle θ with the view,
+/// depth varies along its rays as well, which no warp can follow, and the part above 1 is multiplied by sin⁴ θ: a light at
+/// right angles may use it all, a light along the view none. The exponent is a choice by measure (`cargo run --release
+/// -p testkit --bin survey`): with smaller ones more views are worse off than without a warp.
+fn allowed_ratio<P: Iterator<Item = DVec3> + Clone>(depth: &Plane, visible: &Visible<'_, P>) -> f64 {
+    /// A view without perspective has ratio 1 and is left with the uniform map; the least above 1 keeps κ finite.
+    const ALMOST_UNIFORM: f64 = 1.0 + 1.0 / 1024.0;
+    let nearest = NEAREST * visible.points.clone().fold(0.0, |far, point| most(far, depth.at(point)));
+    let (mut eye_depth, mut uniform) = (Interval::EMPTY, Interval::EMPTY);
+    for point in visible.points.clone() {
+        eye_depth.include(most(depth.at(point), nearest));
+        uniform.include(visible.rays.w.at(point));
+    }
+    let depth_ratio = if eye_depth.min > 0.0 { eye_depth.max / eye_depth.min } else { f64::INFINITY };
+    let sine_squared = visible.rays.axis.cross(depth.normal).length_squared();
+    let depth_ratio = 1.0 + (depth_ratio - 1.0) * sine_squared * sine_squared;
+    (depth_ratio * (uniform.max / uniform.min)).clamp(ALMOST_UNIFORM, MAX_RATIO)
+}

@@ -1,0 +1,211 @@
+//! Rays as a plane of their own.
+
+use crate::convex::{Plane, PlaneId, Polyhedron};
+use crate::focus::Focus;
+use crate::focus::surrounded::Surrounded;
+use crate::input::light::Light;
+use crate::input::view::View;
+use crate::math::axis::widest_margin;
+use crate::math::frame;
+use glam::{DVec2, DVec3};
+
+/// A chart of the rays of a light: a plane that each of them meets once.
+///
+/// The lines through l form a projective plane. A covector that vanishes at l is a linear function of `(U, V, 1)` on
+/// this chart, and every single-pass shadow matrix for l is a homography of it (DESIGN section 2). The chart itself is
+/// the uniform map:
+///
+/// ```text
+///     U = u · X / w · X      V = v · X / w · X      w = 1 on points (directional light), or the distance along the
+///                                                   axis from the light
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rays {
+    /// Unit direction away from the light, in the middle of everything visible.
+    pub(crate) axis: DVec3,
+    u_axis: DVec3,
+    v_axis: DVec3,
+    pub(crate) u: Plane,
+    pub(crate) v: Plane,
+    /// w, positive on everything visible.
+    pub(crate) w: Plane,
+    /// Distance along `axis`, from the light or, when it is infinitely far away, from the eye, or the world's origin in a
+    /// stable map.
+    pub(crate) along: Plane,
+    /// Where `u`, `v` and `along` are zero.
+    origin: DVec3,
+    /// Whether the light is at a position.
+    pub(crate) local: bool,
+    /// What is visible and no nearer to the light than its near distance has at least this w.
+    pub(crate) least_w: f64,
+}
+
+/// Why there is no chart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum NoRays {
+    /// All that is visible is where the light is, or nearer to it than anything casts.
+    Nothing,
+    /// No frustum holds what is visible.
+    Surrounded(Surrounded),
+}
+
+impl Rays {
+    /// The chart around what is visible, R, from which what is nearer to a light in a corner of it than its near distance is
+    /// cut off.
+    pub(crate) fn new(focus: &Focus<'_>, visible: &mut Polyhedron) -> Result<Self, NoRays> {
+        let view = focus.view();
+        let (axis, margin) = match focus.light().position() {
+            None => (-focus.light().homogeneous().truncate(), 1.0),
+            Some(position) => leave_corner(position, focus.light().near(), visible, |_, _| ())?,
+        };
+        let (u_axis, v_axis) = frame::across(axis, view.forward(), view.up());
+        Ok(Self::about([u_axis, v_axis, axis], view.eye(), focus.light(), margin))
+    }
+
+    /// The chart with these axes, zero at the light or, when it is infinitely far away, at `origin`; everything visible is in
+    /// front of the light by `margin`, the least cosine.
+    pub(crate) fn about([u_axis, v_axis, axis]: [DVec3; 3], origin: DVec3, light: &Light, margin: f64) -> Self {
+        let position = light.position();
+        let origin = position.unwrap_or(origin);
+        let along = Plane::through(axis, origin);
+        Self {
+            axis,
+            u_axis,
+            v_axis,
+            u: Plane::through(u_axis, origin),
+            v: Plane::through(v_axis, origin),
+            w: if position.is_some() { along } else { Plane::ONE },
+            along,
+            origin,
+            local: position.is_some(),
+            least_w: light.near() * margin,
+        }
+    }
+
+    /// The least cosine of half the opening of a frustum, that of [`Surrounded::MAX_HALF_ANGLE`]. A light nearer to what is
+    /// visible than that stands among it, as far as a single map is concerned.
+    pub(crate) const MIN_MARGIN: f64 = 1.0 / 512.0;
+
+    /// The ray through a point, and w there.
+    pub(crate) fn through(&self, point: DVec3) -> (DVec2, f64) {
+        let w = self.w.at(point);
+        let across = DVec2::new(self.u.at(point), self.v.at(point));
+        (if self.local { across / w } else { across }, w)
+    }
+
+    /// A point as (u, v, w): the ray through it is at (u, v)/w, where w > 0.
+    pub(crate) fn homogeneous(&self, point: DVec3) -> DVec3 {
+        DVec3::new(self.u.at(point), self.v.at(point), self.w.at(point))
+    }
+
+    /// Depth before the eye of a view where each ray meets the plane across the axis at a distance `along` it: the view's
+    /// depth as the light sees it, a function on the chart.
+    ///
+    /// It is `C₃ − (C₃·l / ρ·l) ρ`, ρ that plane and C₃ the camera's depth row, over w on ρ: the one covector that vanishes
+    /// at the light and agrees with C₃ on ρ.
+    pub(crate) fn depth_across(&self, view: &View, along: f64) -> Functional {
+        let forward = view.forward();
+        let slope = DVec2::new(forward.dot(self.u_axis), forward.dot(self.v_axis));
+        let scale = if self.local { along } else { 1.0 };
+        Functional { slope: slope * scale, constant: view.depth(self.origin + self.axis * along) }
+    }
+
+    /// A covector that vanishes at the light as a function on the chart.
+    pub(crate) fn functional(&self, covector: &Plane) -> Functional {
+        let constant = if self.local { covector.normal.dot(self.axis) } else { covector.at(self.origin) };
+        let slope = DVec2::new(covector.normal.dot(self.u_axis), covector.normal.dot(self.v_axis));
+        Functional { slope, constant }
+    }
+
+    /// A function on the chart as the covector that it is.
+    pub(crate) fn covector(&self, functional: &Functional) -> Plane {
+        self.u * functional.slope.x + self.v * functional.slope.y + self.w * functional.constant
+    }
+
+    /// The world-space direction away from the light of the chart's homogeneous point (`across`, `w`).
+    pub(crate) fn direction(&self, across: DVec2, w: f64) -> DVec3 {
+        self.u_axis * across.x + self.v_axis * across.y + self.axis * w
+    }
+}
+
+/// The axis of the narrowest cone from a light at a position around a body, and the least cosine to it.
+///
+/// A corner of the body where the light is has no direction, and needs none: the edges that end there have theirs at their other
+/// ends. What is around it, up to the light's near distance, is cut off, so that w is positive on what is left. `each` is told
+/// the plane.
+pub(crate) fn leave_corner(
+    position: DVec3,
+    near: f64,
+    body: &mut Polyhedron,
+    mut each: impl FnMut(Plane, PlaneId),
+) -> Result<(DVec3, f64), NoRays> {
+    const NAME: PlaneId = Polyhedron::MAX_PLANES as PlaneId - 1;
+    let surrounded = |cosine| NoRays::Surrounded(Surrounded::by(cosine));
+    let mut directions = [DVec3::ZERO; Polyhedron::MAX_VERTICES];
+    let (mut len, mut extent, mut in_corner) = (0, position.abs(), false);
+    for point in body.positions() {
+        extent = extent.max(point.abs());
+        match direction_between(position, point) {
+            Some(direction) => (directions[len], len) = (direction, len + 1),
+            None => in_corner = true,
+        }
+    }
+    if len == 0 {
+        return Err(NoRays::Nothing);
+    }
+    let (axis, margin) = widest_margin(&directions[..len]).ok_or(surrounded(0.0))?;
+    if margin < Rays::MIN_MARGIN {
+        return Err(surrounded(margin));
+    }
+    if in_corner {
+        let beyond = (Plane::through(axis, position) - Plane::ONE * (near * margin)).loosened(extent);
+        body.clip(&beyond, NAME);
+        each(beyond, NAME);
+        if body.is_empty() {
+            return Err(NoRays::Nothing);
+        }
+        // The near distance may be lost in the rounding of the position.
+        if body.positions().any(|point| direction_between(position, point).is_none()) {
+            return Err(surrounded(margin));
+        }
+    }
+    Ok((axis, margin))
+}
+
+/// The unit direction from a light to a visible point. A light a few roundings away from what is visible is on its boundary,
+/// and it has none.
+pub(crate) fn direction_between(position: DVec3, point: DVec3) -> Option<DVec3> {
+    let arm = point - position;
+    let distance = arm.length();
+    (distance > ROUNDINGS * (point.abs() + position.abs()).max_element()).then(|| arm / distance)
+}
+
+/// What a vertex may be away from the exact one where its planes meet squarely: their slack, and its roundings.
+const ROUNDINGS: f64 = 2.0 * Plane::SLACK;
+
+/// A linear function of `(U, V, 1)` on the chart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Functional {
+    pub(crate) slope: DVec2,
+    pub(crate) constant: f64,
+}
+
+impl Functional {
+    /// The uniform map's w.
+    pub(crate) const ONE: Self = Self { slope: DVec2::ZERO, constant: 1.0 };
+    /// The chart's coordinates.
+    pub(crate) const U: Self = Self { slope: DVec2::X, constant: 0.0 };
+    pub(crate) const V: Self = Self { slope: DVec2::Y, constant: 0.0 };
+
+    pub(crate) fn at(&self, ray: DVec2) -> f64 {
+        self.slope.dot(ray) + self.constant
+    }
+
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        Self { slope: self.slope + other.slope, constant: self.constant + other.constant }
+    }
+
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        Self { slope: self.slope * factor, constant: self.constant * factor }
+    }
+}
