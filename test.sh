@@ -11,6 +11,19 @@ step() {
     printf '\n== %s\n' "$*"
 }
 
+# Runs the tests of some modules (arguments that end in ::), and fails where one of them has none.
+test_modules() {
+    local argument listed
+    listed=$(cargo test "$@" --list)
+    for argument in "$@"; do
+        if [[ $argument == *:: ]] && ! grep --quiet --fixed-strings "$argument" <<<"$listed"; then
+            echo "no test in $argument"
+            return 1
+        fi
+    done
+    cargo test "$@"
+}
+
 step 'a Vulkan driver'
 ./driver.sh
 
@@ -30,20 +43,27 @@ step 'tests, all features'
 cargo test "${all[@]}"
 
 # Everything ran above. Here each set of features builds on its own, and gives the same results to the bit.
-same=(--lib --test bits --test conventions --test errors --test properties --test snapshots)
+same=(conventions:: errors:: properties:: snapshots::)
 for features in std libm; do
     step "tests, features: $features"
-    cargo check --package shadowfit --lib --tests --no-default-features --features "$features"
-    cargo test --package shadowfit --no-default-features --features "$features" "${same[@]}"
+    only=(--package shadowfit --no-default-features --features "$features")
+    cargo check "${only[@]}" --lib --tests
+    cargo test "${only[@]}" --lib --test bits
+    test_modules "${only[@]}" --test fit --test input -- "${same[@]}"
 done
 
 # What each of the other features adds: its own tests pass with that feature alone. All targets built with none of them above,
 # and with all.
-for of_feature in parry3d:parry serde:serde spade:refine wgsl:paraboloid; do
-    feature=${of_feature%%:*}
+for of_feature in "parry3d focus parry::" "serde input serde::" "spade mesh tessellation::" "wgsl omni paraboloid::"; do
+    read -r feature binary tests <<<"$of_feature"
     step "tests, features: std,$feature"
-    cargo test --package shadowfit --no-default-features --features "std,$feature" --test "${of_feature##*:}"
+    test_modules --package shadowfit --no-default-features --features "std,$feature" --test "$binary" -- "$tests"
 done
+
+step 'each feature alone, and each pair'
+cargo hack --version >/dev/null 2>&1 || cargo install --locked cargo-hack
+cargo hack clippy --package shadowfit --lib --feature-powerset --depth 2 --at-least-one-of std,libm --exclude-features default \
+    -- -D warnings
 
 step 'the same bits: unoptimised, with fused multiplication at hand, and on WebAssembly where that target is installed'
 CARGO_PROFILE_DEV_OPT_LEVEL=0 cargo test --package shadowfit --all-features --test bits
@@ -64,6 +84,9 @@ tar --create --exclude=./target --exclude=./fuzz/target --exclude=./.git --exclu
         cargo update --package "$version" --precise "$lowest"
     done
     cargo tree --package shadowfit --depth 1 --prefix none | grep --quiet "^glam v$lowest"
-    CARGO_TARGET_DIR=../../target cargo check --package shadowfit --all-features --all-targets
-    CARGO_TARGET_DIR=../../target cargo test --package shadowfit --all-features "${same[@]}" --test parry --test serde
+    export CARGO_TARGET_DIR=../../target
+    cargo check --package shadowfit --all-features --all-targets
+    cargo test --package shadowfit --all-features --lib --test bits
+    test_modules --package shadowfit --all-features --test fit --test focus --test input -- \
+        "${same[@]}" parry:: serde::
 )

@@ -4,7 +4,7 @@
 # Prints what was executed, what is covered (cov: edges of the code, ft: features, how often they were taken included), how
 # many inputs that takes, and every failure; goes on after a failure, and fails in the end. What a failing input means is
 # shown by the replay on a stable compiler:
-#   SHADOWFIT_INPUT=$PWD/fuzz/artifacts/fit/crash-… cargo test --all-features --test corpus fit
+#   SHADOWFIT_INPUT=$PWD/fuzz/artifacts/fit/crash-… cargo test --all-features --test fuzz_corpus fit
 # Inputs that reach something new are kept in fuzz/target/corpus; fuzz/keep.sh puts the best of them into fuzz/corpus.
 #
 # Needs a nightly compiler, cargo-fuzz and a C++ compiler.

@@ -88,7 +88,7 @@ impl Warp {
 /// How long to search for the best matrix: the price of its accuracy.
 ///
 /// Worst aliasing over the least that an exhaustive search finds, on outdoor views, median and in 95 % of cases, and the time of
-/// a fit over that of a uniform one, in instructions (`cargo test --test best -- --nocapture`, `cargo bench --bench instructions`):
+/// a fit over that of a uniform one, in instructions (`cargo test --test fit best -- --nocapture`, `cargo bench --bench instructions`):
 ///
 /// | | sun | lamp | spot | times as long |
 /// |---|---|---|---|---|

@@ -197,7 +197,7 @@ impl Precision {
     /// f32 carries a place in a warped map by w's rounding, which is a part of w as large as its terms are over w. What it carries
     /// one by in the uniform map, in texels, is there whatever the warp; texels smaller than that noise are worth nothing, and depth,
     /// which has the longer a range the more w varies, is off by more than in the uniform map. Six times that part of a texel is a
-    /// choice by measure (`cargo test --test precision`). Beside a lamp, where noise is hundreds of times larger than on anything
+    /// choice by measure (`cargo test --test numerics precision::`). Beside a lamp, where noise is hundreds of times larger than on anything
     /// that is lit by it, none is counted.
     pub(crate) fn new(
         rays: &Rays,

@@ -2,8 +2,8 @@
 
 use shadowfit::glam::{DMat4, DVec3, Vec3, Vec4};
 use shadowfit::{
-    Aabb, ClipSpace, DepthFormat, Filter, Focus, FocusForm, InputError, Light, Origin, Outcome, Scene, Settings,
-    ShadowMap, View,
+    Aabb, ClipSpace, DepthFormat, Focus, FocusForm, InputError, Light, Origin, Outcome, Scene, Settings, ShadowMap,
+    View,
     cascades::{CascadeLayout, CascadeSplits, Cascades, SplitScheme},
     depth::{ComparisonTolerance, ReceiverOffset, TangentPlane},
     focus::Plane,
@@ -409,6 +409,7 @@ fn refiner(_: &mut Bits<'_>) {}
 
 #[cfg(feature = "std")]
 fn planned(bits: &mut Bits<'_>, view: &View, light: &Light, settings: &Settings) {
+    use shadowfit::Filter;
     use shadowfit::plan::{Budget, Object, Objects, Surface, plan};
 
     let filters = [Filter::Nearest, Filter::Hardware2x2, Filter::Pcf(bits.below(256) as u8)];

@@ -1,8 +1,0 @@
-//! Balls and discs in a map, over views, lights and scenes at random: their bounds hold them and touch them, in f64 and
-//! as the shader computes them in f32.
-
-#![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
-
-mod bounds;
-mod rounds;
-mod shader;
