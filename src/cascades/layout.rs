@@ -7,6 +7,7 @@ use glam::{DMat4, DVec2, Mat4};
 /// How the maps of cascades are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum CascadeLayout {
     /// Each in a layer of an array of textures.
     #[default]

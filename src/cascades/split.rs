@@ -26,6 +26,7 @@ use crate::math::bounds::Interval;
 /// split: it is what all of these are for an orthographic view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum SplitScheme {
     /// Cascades of one length.
     Uniform,
@@ -38,6 +39,7 @@ pub enum SplitScheme {
 
 /// Which cuts to make.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum CascadeSplits<'a> {
     /// The depths between the nearest and the farthest of what is visible and lit, so that neither a far plane at
     /// infinity nor a near plane in the air before all that is seen matters. The cuts move with the view.

@@ -16,7 +16,7 @@ use core::fmt;
 pub(crate) use steps::fit_receivers;
 
 /// Result of fitting a shadow map.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "a box would need a heap")]
 pub enum Outcome {
     /// One map, and its matrix.
@@ -50,6 +50,7 @@ impl Outcome {
 /// Why no map is needed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Empty {
     /// Nothing that receives is in view and lit: the light needs no pass, and no shading either.
     NoReceivers,

@@ -292,7 +292,7 @@ mod tests {
             View::perspective((0.0, 2.0, 0.0), (0.3, -0.2, -1.0), (0.0, 1.0, 0.0), 1.2, 1.6, 0.5, 60.0).ok()?;
         let scene = Scene::from_box((-20.0, -1.0, -40.0), high).ok()?;
         let focus = Focus::new(&view, light, &scene);
-        let mut map = *focus.fit(&Settings::default().with_warp(Warp::Uniform)).map()?;
+        let mut map = focus.fit(&Settings::default().with_warp(Warp::Uniform)).into_map()?;
         let [x, y, z, w] = map.rows;
         let row = |[a, b, c]: [f64; 3]| x * a + y * b + w * c;
         // |x| and |y| are at most w, so that this is positive.
@@ -321,7 +321,7 @@ mod tests {
             View::perspective((0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.0, 0.05, 60.0).unwrap();
         let scene = Scene::from_box((0.0, 0.0, -10.0), (0.0, 0.0, -0.1)).unwrap();
         let focus = Focus::new(&view, &Light::directional((0.0, 1.0, 0.0)).unwrap(), &scene);
-        let mut map = *focus.fit(&Settings::default().with_warp(Warp::Uniform)).map().unwrap();
+        let mut map = focus.fit(&Settings::default().with_warp(Warp::Uniform)).into_map().unwrap();
         let (x, s) = (Plane::new(DVec3::X, 0.0), Plane::new(DVec3::Z, 10.0));
         let c = Plane::ONE - x - s * (0.999 / 9.9);
         map.rows = [Plane::ONE, (x - Plane::ONE) * 1e6, map.rows[2], c];

@@ -32,7 +32,7 @@ use glam::{DMat4, DVec2, DVec3, Mat4};
 /// - points on a ray from the light share their (x, y), and depth grows away from the light: the test is 'less', or
 ///   'greater' for a reversed clip space, whatever the class of the light;
 /// - w > 0, so that no caster wraps around, wherever it is, also behind the eye.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ShadowMap {
     /// World to clip, depth 0 to 1, y up.
     pub(crate) rows: [Plane; 4],

@@ -149,6 +149,7 @@ impl Plan {
 /// The kind of a light's shadow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Kind {
     /// No map.
     Nothing,
@@ -240,7 +241,7 @@ impl LightPlan {
 }
 
 /// What one map is drawn through.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Projection {
     /// A matrix.
     Frustum(ShadowMap),

@@ -10,6 +10,7 @@ use std::vec::Vec;
 /// What an object is made of, which decides how its shadow can be tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Surface {
     /// Triangles, see [`Solidity::of`].
     Mesh(Solidity),

@@ -3,6 +3,7 @@
 /// How a shadow map is read for a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Filter {
     /// The one texel that the point lies in.
     Nearest,

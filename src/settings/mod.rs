@@ -15,6 +15,7 @@ use glam::{DVec2, DVec3};
 /// A warp that cannot be made leaves the uniform map, and the map says why ([`ShadowMap::fallback`](crate::ShadowMap::fallback)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Warp {
     /// No warp: a parallel projection for a directional light, a perspective one from any other.
     Uniform,
@@ -98,6 +99,7 @@ impl Warp {
 /// | `Thorough` | 1.001, 1.006 | 1.001, 1.003 | 1.001, 1.014 | 17 to 26 |
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Effort {
     /// The best of the closed forms, in the frame that they have by themselves; in a map that is not square, in that and a
     /// quarter turn from it.
@@ -115,6 +117,7 @@ pub enum Effort {
 /// warp among others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Shift {
     /// Where the view has it. Casters behind the eye are in the map all the same.
     None,
@@ -133,6 +136,7 @@ impl Default for Shift {
 /// What the f32 matrices take positions relative to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Origin {
     /// World space.
     #[default]

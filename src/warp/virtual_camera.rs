@@ -44,6 +44,7 @@ impl fmt::Display for ClassKind {
 /// A special case that a light and a view come close to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum NearCase {
     /// The light lies in the camera plane, or shines parallel to it: the class is about to change.
     CameraPlane,

@@ -37,7 +37,7 @@ fn two_eyes_share_a_map() {
         let shared = SharedFocus::new(&views, &light, &scene).expect("two views");
         let settings = Settings::default();
         let outside = |outcome: Outcome| {
-            let map = *outcome.map().expect("one map does");
+            let map = outcome.into_map().expect("one map does");
             let place = move |point: DVec3| map.clip_from_world_in(ClipSpace::WGPU).project_point3(point);
             let points = shared.iter().flat_map(|part| points_of(&part.receiver_volume(), 7));
             points.filter(|&point| place(point).truncate().abs().max_element() > 1.0).count()
@@ -108,7 +108,7 @@ fn a_stable_map_of_two_eyes_keeps_its_grid() {
         let turn = DQuat::from_rotation_y(0.7 * at) * DQuat::from_rotation_x(-0.2);
         let views = eyes(DVec3::new(1.3 * at, 1.7, -at), turn, 0.09, 0.9);
         let shared = SharedFocus::new(&views, &light, &scene).expect("two views");
-        let map = *shared.fit(&settings).map().expect("one map does");
+        let map = shared.fit(&settings).into_map().expect("one map does");
         assert_eq!(map.fallback(), None);
         for part in shared.iter() {
             for &point in part.receiver_volume().vertices() {

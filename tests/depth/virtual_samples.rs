@@ -83,7 +83,7 @@ fn ground(light: &Light, clip: ClipSpace, warp: Warp) -> ShadowMap {
     let scene = Scene::from_box((-30.0, 0.0, -30.0), (30.0, 5.0, 30.0)).expect("sound");
     let settings = Settings::new(256, 1080).expect("sound").with_border(4).expect("sound");
     let settings = settings.with_clip(clip).with_warp(warp);
-    *fit(&view, light, &scene, &settings).map().expect("one map does")
+    fit(&view, light, &scene, &settings).into_map().expect("one map does")
 }
 
 fn grounds() -> Vec<ShadowMap> {

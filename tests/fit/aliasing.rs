@@ -26,7 +26,7 @@ fn no_point_of_r_has_more_than_is_said_and_one_has_the_worst() {
     run(3000, &(case(), settings(), any::<u64>()), |(case, settings, seed)| {
         let together = Together::of(&case);
         let focus = together.focus();
-        let Some(map) = focus.fit(&settings).map().copied() else { return };
+        let Some(map) = focus.fit(&settings).into_map() else { return };
         let visible = focus.receiver_volume();
         let found = map.aliasing_over(&focus).expect("what is visible has aliasing");
         // A product and a quotient.
@@ -91,7 +91,7 @@ fn the_mean_is_that_of_many_points() {
     for light in lights() {
         let focus = Focus::new(&street(), &light, &scene);
         for warp in [Warp::Uniform, Warp::Perspective] {
-            let map = *focus.fit(&Settings::default().with_warp(warp)).map().unwrap();
+            let map = focus.fit(&Settings::default().with_warp(warp)).into_map().unwrap();
             let found = map.aliasing_over(&focus).unwrap();
             let (mean, deviation) = sampled(&map, &focus.receiver_volume(), 500_000);
             assert!(deviation < 4e-3 * mean, "too few points: {mean} ± {deviation}");
@@ -109,7 +109,7 @@ fn the_mean_over_a_frustum_has_a_closed_form() {
         let view = View::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, 1.0, 1.0, far).unwrap();
         let scene = Scene::from_box(DVec3::splat(-2.0 * far), DVec3::splat(2.0 * far)).unwrap();
         let focus = Focus::new(&view, &Light::directional(DVec3::Y).unwrap(), &scene);
-        let map = *focus.fit(&Settings::default().with_warp(Warp::Uniform)).map().unwrap();
+        let map = focus.fit(&Settings::default().with_warp(Warp::Uniform)).into_map().unwrap();
         let found = map.aliasing_over(&focus).unwrap();
         let over_worst = (far.powi(2) - 1.0) / 2.0 / ((far.powi(3) - 1.0) / 3.0);
         // A near corner is off by three times 96 ε of the sum of two coordinates of 2f.
@@ -127,7 +127,7 @@ fn below_a_lamp_there_may_be_more_than_at_any_vertex() {
     let scene = Scene::from_box((-20.0, 0.0, -1.0), (20.0, 0.0, 1.0)).unwrap();
     let light = Light::point((0.0, 3.0, 0.0), 0.01, f64::INFINITY).unwrap();
     let focus = Focus::new(&view, &light, &scene);
-    let map = *focus.fit(&Settings::default().with_warp(Warp::Uniform)).map().unwrap();
+    let map = focus.fit(&Settings::default().with_warp(Warp::Uniform)).into_map().unwrap();
     let found = map.aliasing_over(&focus).unwrap();
     assert!(found.worst_at.x.abs() < 0.2, "{found:?}");
     // 40 m on as many texels as lie inside the border, over a pixel; what the window has of padding is the difference.
@@ -143,7 +143,7 @@ fn vertices_decide_in_uniform_maps_of_the_sun() {
     run(1000, &case(), |case| {
         let together = Together::of(&case);
         let focus = together.focus();
-        let Some(map) = focus.fit(&Settings::default().with_warp(Warp::Uniform)).map().copied() else { return };
+        let Some(map) = focus.fit(&Settings::default().with_warp(Warp::Uniform)).into_map() else { return };
         if together.light.position().is_none() {
             let found = map.aliasing_over(&focus).unwrap();
             let vertices = focus.receiver_volume();
@@ -162,7 +162,7 @@ fn of_a_narrowed_view_only_what_is_left_counts() {
     let scene = Scene::from_box(DVec3::splat(-200.0), DVec3::splat(200.0)).unwrap();
     let light = Light::directional(DVec3::Y).unwrap();
     let focus = Focus::new(&view, &light, &scene);
-    let map = *focus.fit(&Settings::default().with_warp(Warp::Uniform)).map().unwrap();
+    let map = focus.fit(&Settings::default().with_warp(Warp::Uniform)).into_map().unwrap();
     let whole = map.aliasing_over(&focus).unwrap();
     for (near, far) in [(2.0, 100.0), (5.0, 50.0), (20.0, 40.0)] {
         let narrowed = view.narrowed(near, far).unwrap();
@@ -172,7 +172,7 @@ fn of_a_narrowed_view_only_what_is_left_counts() {
         let over_worst = near * (far.powi(2) - near.powi(2)) / 2.0 / ((far.powi(3) - near.powi(3)) / 3.0);
         assert_relative_eq!(found.mean / found.worst, over_worst, max_relative = 1e-3);
         // The map for what is left counts the same, and is no worse there.
-        let own = *left.fit(&Settings::default().with_warp(Warp::Uniform)).map().unwrap();
+        let own = left.fit(&Settings::default().with_warp(Warp::Uniform)).into_map().unwrap();
         let own = own.aliasing_over(&left).unwrap();
         assert!(own.worst <= found.worst * (1.0 + 1e-9) && own.mean <= found.mean * (1.0 + 1e-3));
     }
@@ -192,7 +192,7 @@ fn only_receivers_that_are_listed_count() {
     let post = Aabb::new(Vec3::new(1.0, 0.0, -10.0), Vec3::new(1.0, 2.0, -10.0));
     for light in lights() {
         let focus = Focus::new(&street(), &light, &scene);
-        let map = *focus.fit(&Settings::default().with_shift(Shift::None)).map().unwrap();
+        let map = focus.fit(&Settings::default().with_shift(Shift::None)).into_map().unwrap();
         let over = |receivers: &[Aabb]| map.aliasing_over_receivers(&focus, receivers);
         let all = map.aliasing_over(&focus).unwrap();
 

@@ -39,7 +39,7 @@ fn settings(warp: Warp) -> Settings {
 }
 
 fn map(outcome: Outcome) -> ShadowMap {
-    *outcome.map().expect("a map")
+    outcome.into_map().expect("a map")
 }
 
 /// Texels needed across and along the warp for each pixel, the worst over V.
@@ -441,13 +441,13 @@ fn a_light_far_away_is_a_directional_light() {
                 let infinite = map(fit(&view, &sun, &scene, &settings));
                 let focus = Focus::new(&view, &sun, &scene);
                 for &point in focus.receiver_volume().vertices() {
-                    let [a, b] = [near, infinite].map(|map| {
+                    let [a, b] = [&near, &infinite].map(|map| {
                         let clip = map.clip_from_world() * point.extend(1.0);
                         clip.truncate() / clip.w
                     });
                     let off = (a - b).abs().max_element();
                     assert!(off < 8.0 * SIZE / DISTANCE, "{direction}, {warp:?}: {a} {b}");
-                    let [a, b] = [near, infinite].map(|map| map.aliasing(point).unwrap());
+                    let [a, b] = [&near, &infinite].map(|map| map.aliasing(point).unwrap());
                     assert_relative_eq!(a, b, max_relative = 8.0 * SIZE / DISTANCE);
                 }
             }

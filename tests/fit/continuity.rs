@@ -76,7 +76,7 @@ impl SetUp {
 
     fn fit(&self, settings: &Settings) -> Option<ShadowMap> {
         let (view, light, scene) = self.parts()?;
-        Focus::new(&view, &light, &scene).fit(settings).map().copied()
+        Focus::new(&view, &light, &scene).fit(settings).into_map()
     }
 
     /// The same with one number changed by a part of what its kind is large.

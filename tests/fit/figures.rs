@@ -17,8 +17,9 @@ fn a_shifted_camera_is_behind_the_eye() {
     let focus = Focus::new(&view, &sun, &scene);
     for form in [FocusForm::ViewHull, FocusForm::ReceiverHull] {
         let settings = Settings::default().with_shift(Shift::Back(form));
-        let camera = *focus.fit(&settings).map().unwrap().camera();
-        assert_eq!(Some(camera), VirtualCamera::new(&focus, Shift::Back(form)));
+        let map = focus.fit(&settings).into_map().unwrap();
+        let camera = map.camera();
+        assert_eq!(Some(*camera), VirtualCamera::new(&focus, Shift::Back(form)));
         // The near plane is where the view's was before, and the least depth of H is at it.
         let depths =
             focus.caster_volume(form).vertices().iter().map(|point| view.depth(*point)).collect::<Vec<_>>();
@@ -45,7 +46,7 @@ fn no_texel_is_smaller_than_the_rounding() {
                 let scene = Scene::from_box(middle - extent, middle + extent).unwrap();
                 let settings = Settings::new(size, 1080).unwrap().with_warp(Warp::Uniform);
                 let focus = Focus::new(&view, &sun, &scene);
-                let map = *focus.fit(&settings).map().unwrap();
+                let map = focus.fit(&settings).into_map().unwrap();
                 let rounding = map.window().rounding;
                 // w is 1 but for eight roundings of f32, of which three count across half of the map.
                 let of_w = 3.0 * 8.0 / 16_777_216.0 * 0.5 * f64::from(size);
@@ -69,7 +70,7 @@ fn casters_next_to_a_lamp_pad_the_window_by_no_more_than_a_thousandth() {
         let focus = Focus::new(&view, &lamp, &scene);
         for warp in [Warp::Uniform, Warp::Perspective] {
             let settings = Settings::default().with_warp(warp);
-            let map = *focus.fit(&settings).map().unwrap();
+            let map = focus.fit(&settings).into_map().unwrap();
             let of_visible = 2.0 * map.window().rounding / f64::from(settings.map_size());
             let (across, down) = map.window().padding;
             let most = 2.0 / 1024.0 + 2.0 * of_visible;

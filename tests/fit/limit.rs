@@ -236,7 +236,7 @@ fn outdoor_views_are_above_the_limit() {
         let limit = focus.aliasing_lower_bound(&sizes());
         limits.push(limit);
         for ((settings, ratios), missed) in maps.iter().zip(&mut ratios).zip(&mut missed) {
-            let map = *focus.fit(settings).map().unwrap();
+            let map = focus.fit(settings).into_map().unwrap();
             let found = map.aliasing_over(&focus).unwrap();
             assert!(found.upper_bound >= limit, "{found:?}, {limit}");
             ratios.push(found.worst / limit);

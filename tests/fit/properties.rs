@@ -91,7 +91,7 @@ fn maps_change_continuously_across_the_camera_plane() {
         let fit = |depth: f64| {
             let light = crossing.light(&view, depth);
             let focus = Focus::new(&view, &light, &scene);
-            focus.fit(&settings).map().copied()
+            focus.fit(&settings).into_map()
         };
         let Some(middle) = fit(0.0) else { return };
         assert_eq!(fit(-0.0).map(|map| map.caster_matrix()), Some(middle.caster_matrix()));
@@ -146,7 +146,7 @@ fn a_best_map_that_may_be_either_way_up() {
     let maps = [0.0, 1e-8, -1e-8].map(|depth| {
         let light = crossing.light(&view, depth);
         let focus = Focus::new(&view, &light, &scene);
-        (focus.receiver_volume(), *focus.fit(&best(16384, 64)).map().expect("a map"))
+        (focus.receiver_volume(), focus.fit(&best(16384, 64)).into_map().expect("a map"))
     });
     let (visible, first) = &maps[0];
     for (_, map) in &maps[1..] {
@@ -227,7 +227,7 @@ impl Movable {
         let scene = Scene::from_convex(&block);
         let (view, light) = (view.expect("a legal view"), light.expect("a legal light"));
         let focus = Focus::new(&view, &light, &scene);
-        (focus.fit(settings).map().copied(), focus.receiver_volume())
+        (focus.fit(settings).into_map(), focus.receiver_volume())
     }
 }
 
@@ -241,7 +241,7 @@ fn turning_and_moving_everything_changes_nothing() {
         let (here, visible) = movable.fit(&settings, DQuat::IDENTITY, DVec3::ZERO);
         let (there, moved) = movable.fit(&settings, turn, offset);
         assert_eq!(visible.is_empty(), moved.is_empty());
-        let (Some(here), Some(there)) = (here, there) else {
+        let (Some(here), Some(there)) = (&here, &there) else {
             assert_eq!(here.is_some(), there.is_some());
             return;
         };
@@ -253,7 +253,7 @@ fn turning_and_moving_everything_changes_nothing() {
             let matrix = map.clip_from_world();
             visible.vertices().iter().map(|&point| matrix.project_point3(turn * point + offset)).collect()
         };
-        let (here, there) = (clip(&here, DQuat::IDENTITY, DVec3::ZERO), clip(&there, turn, offset));
+        let (here, there) = (clip(here, DQuat::IDENTITY, DVec3::ZERO), clip(there, turn, offset));
         for axis in 0..3 {
             // What covers the rounding of f32 moves and stretches x, y and z, each
             // by itself, so that parts of the way from the least to the largest stay.
@@ -353,7 +353,7 @@ fn casters_of_a_list_that_are_all_off_to_one_side() {
     for origin in [Origin::World, Origin::Eye, Origin::Light] {
         let settings = Settings::default().with_warp(Warp::Perspective).with_shift(Shift::None).with_origin(origin);
         exercise(&view, &light, &scene, &settings);
-        let map = *Focus::new(&view, &light, &scene).fit(&settings).map().expect("one map does");
+        let map = Focus::new(&view, &light, &scene).fit(&settings).into_map().expect("one map does");
         // It begins far behind the light's near distance, if not nowhere: there the middle of the window has no casters.
         assert!(map.depth().near > 10.0 * light.near(), "{:?}", map.depth());
     }
@@ -371,7 +371,7 @@ fn a_slope_over_a_length_that_is_too_small_to_see() {
         let (half, aspect) = (85.332_031_25, 85.332_031_25);
         let view = View::orthographic(eye, DVec3::Y, up, half, aspect, -0.976_562_5, 0.0).expect("a legal view");
         exercise(&view, &light, &scene, &Settings::default());
-        let map = *Focus::new(&view, &light, &scene).fit(&Settings::default()).map().expect("one map does");
+        let map = Focus::new(&view, &light, &scene).fit(&Settings::default()).into_map().expect("one map does");
         // No more than a thousand by a billionth of what is seen.
         let most = map.caster_matrix().to_cols_array().into_iter().map(f32::abs).fold(0.0, f32::max);
         assert!(most <= 1e13, "10^-{exponent}: {most:e}");

@@ -31,7 +31,7 @@ fn lights() -> [Light; 5] {
 }
 
 fn fitted(light: &Light, settings: Settings) -> ShadowMap {
-    *fit(&view(), light, &scene(), &settings).map().expect("a map")
+    fit(&view(), light, &scene(), &settings).into_map().expect("a map")
 }
 
 /// Six significant digits, and no sign of zero.

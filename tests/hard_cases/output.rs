@@ -33,7 +33,7 @@ fn row_29_rounding_to_f32() {
         for light in lights(&view) {
             for warp in [Warp::Uniform, Warp::Perspective] {
                 let focus = Focus::new(&view, &light, &scene);
-                let map = focus.fit(&settings().with_warp(warp)).map().copied().expect("one map does");
+                let map = focus.fit(&settings().with_warp(warp)).into_map().expect("one map does");
                 let visible = focus.receiver_volume();
                 let body = focus.caster_volume(shadowfit::FocusForm::ReceiverHull);
                 for &p in visible.vertices() {
@@ -63,7 +63,7 @@ fn row_30_receiver_at_the_edge_of_the_window() {
             let settings = Settings::new(size, 1080).and_then(|s| s.with_border(filter.border())).expect("sound");
             for light in lights(&view) {
                 let focus = Focus::new(&view, &light, &wide());
-                let map = focus.fit(&settings).map().copied().expect("one map does");
+                let map = focus.fit(&settings).into_map().expect("one map does");
                 let mut nearest = f64::INFINITY;
                 for &p in focus.receiver_volume().vertices() {
                     let coordinates = map.receiver_matrix() * p.as_vec3().extend(1.0);
@@ -95,7 +95,7 @@ fn row_31_receiver_deeper_than_the_farthest_caster() {
         let scene = Scene::new(&caster, &receiver).expect("sound");
         for light in [sun(DVec3::Z), sun(DVec3::new(0.1, 0.05, 1.0)), lamp(DVec3::new(1.0, 2.0, 5.0))] {
             let focus = Focus::new(&view, &light, &scene);
-            let map = focus.fit(&settings()).map().copied().expect("the caster shades the wall");
+            let map = focus.fit(&settings()).into_map().expect("the caster shades the wall");
             for &p in focus.receiver_volume().vertices() {
                 let clip = in_f32(&map, p);
                 assert!(clip.z <= clip.w, "{wall}, {light:?}: {p} is clipped at {}", clip.z / clip.w);

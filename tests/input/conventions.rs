@@ -209,7 +209,7 @@ fn one_focus_body_in_every_convention() {
                 }
                 let map = |view: &View| {
                     let outcome = fit(view, light, &scene, &Settings::default().with_warp(Warp::Perspective));
-                    *outcome.map().expect("a map")
+                    outcome.into_map().expect("a map")
                 };
                 assert_relative_eq!(map(view).warp_ratio(), map(&views[0]).warp_ratio(), max_relative = 1e-9);
             }
@@ -322,7 +322,7 @@ impl Setup {
     }
 
     fn map(&self, settings: &Settings) -> ShadowMap {
-        *fit(&self.view, &self.light, &self.scene, settings).map().expect("a map")
+        fit(&self.view, &self.light, &self.scene, settings).into_map().expect("a map")
     }
 
     fn visible(&self) -> Vec<DVec3> {

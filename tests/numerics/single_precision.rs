@@ -40,7 +40,7 @@ fn a_plate_under_light_from_above_does_not_drown_in_noise() {
             for origin in [Origin::World, Origin::Eye, Origin::Light] {
                 let settings = Settings::default().with_warp(warp).with_origin(origin);
                 let focus = Focus::new(&view, &light, &scene);
-                let map = *focus.fit(&settings).map().expect("one map does");
+                let map = focus.fit(&settings).into_map().expect("one map does");
                 let of_w = |point: &DVec3| rounding(&map, *point).1;
                 let of_w = focus.receiver_volume().vertices().iter().map(of_w).fold(0.0, f64::max);
                 for point in focus.receiver_volume().vertices() {

@@ -245,11 +245,7 @@ fn filter(measured: &Measured) -> Option<Advice> {
         .iter()
         .map(|it| format!("{} {} in {} ms", it.contender.filter, percent(it.wrong_share), Figure(it.test_ms)))
         .collect::<Vec<_>>();
-    let default = match Budget::new(Settings::default()).filter() {
-        shadowfit::Filter::Nearest => Filter::Nearest,
-        shadowfit::Filter::Hardware2x2 => Filter::Hardware2x2,
-        shadowfit::Filter::Pcf(taps) => Filter::Pcf(taps.into()),
-    };
+    let default = render_check::run::planned::filter(Budget::new(Settings::default()).filter(), false);
     Some(Advice {
         setting: "Filter",
         recommended: good.contender.filter.to_string(),

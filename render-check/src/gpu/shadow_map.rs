@@ -67,7 +67,7 @@ fn format_name<S: serde::Serializer>(format: &DepthFormat, serializer: S) -> Res
 pub struct MapDraw<'a> {
     /// Its matrix takes positions relative to what its settings say; the geometry must have been uploaded relative to
     /// the same.
-    pub map: Layout,
+    pub map: &'a Layout,
     /// The ranges of the geometry's triangles that belong in it.
     pub casters: &'a [Range<u32>],
     /// How they are drawn.
@@ -128,7 +128,7 @@ impl ShadowMaps {
                 let offset =
                     ReceiverOffset::relative(draw.pass.relative).and_then(|it| it.and_depth(draw.pass.receiver));
                 let offset = offset.context("receivers cannot be moved so")?;
-                Ok((draw.map, offset))
+                Ok((draw.map.clone(), offset))
             };
             let mut shadow_maps = Self {
                 view: nearest.all,

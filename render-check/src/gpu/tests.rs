@@ -34,7 +34,7 @@ fn stage(clip: ClipSpace) -> Stage {
     let (min, max) = mesh.bounds();
     let scene = Scene::from_box(min, max).expect("sound");
     let settings = Settings::new(MAP, IMAGE[1]).expect("sound").with_origin(Origin::Eye).with_clip(clip);
-    let map = *fit(&view, &light, &scene, &settings).map().expect("one map does");
+    let map = fit(&view, &light, &scene, &settings).into_map().expect("one map does");
     Stage { gpu: Gpu::new().expect("an adapter"), mesh, view, map }
 }
 
@@ -42,7 +42,7 @@ fn draw_all(stage: &Stage, format: DepthFormat, bias: Bias) -> (Geometry, Shadow
     let geometry = Geometry::upload(&stage.gpu, &stage.mesh, stage.view.eye()).expect("it fits");
     let pass = MapPass { format, faces: Faces::All, bias, receiver: 0.0, relative: 0.0, points: Points::Discs };
     let all = 0..stage.mesh.triangles.len() as u32;
-    let draw = MapDraw { map: Layout::Frustum(stage.map), casters: &[all], pass };
+    let draw = MapDraw { map: &Layout::Frustum(stage.map.clone()), casters: &[all], pass };
     let shadow_maps = ShadowMaps::draw(&stage.gpu, &geometry, &Split::whole(), &[Some(draw)]).expect("drawn");
     (geometry, shadow_maps)
 }
@@ -149,8 +149,8 @@ fn each_part_of_a_light_has_its_layer() {
         points: Points::Discs,
     };
     let (full, empty) = (
-        MapDraw { map: Layout::Frustum(stage.map), casters: &all, pass },
-        MapDraw { map: Layout::Frustum(stage.map), casters: &[], pass },
+        MapDraw { map: &Layout::Frustum(stage.map.clone()), casters: &all, pass },
+        MapDraw { map: &Layout::Frustum(stage.map.clone()), casters: &[], pass },
     );
     let draw = |maps: &[Option<MapDraw>]| ShadowMaps::draw(&stage.gpu, &geometry, &split, maps);
     assert_eq!(lit(&draw(&[Some(full); 6]).expect("drawn")), one);
@@ -220,7 +220,8 @@ fn the_second_layer_is_the_next_surface_that_rays_meet() {
             let (bias, points) = (Bias::NONE, Points::Discs);
             let pass = MapPass { format, faces: Faces::Layers, bias, receiver: 0.0, relative: 0.0, points };
             let all = 0..stage.mesh.triangles.len() as u32;
-            let draw = MapDraw { map: Layout::Frustum(stage.map), casters: std::slice::from_ref(&all), pass };
+            let draw =
+                MapDraw { map: &Layout::Frustum(stage.map.clone()), casters: std::slice::from_ref(&all), pass };
             let maps = ShadowMaps::draw(&stage.gpu, &geometry, &Split::whole(), &[Some(draw)]).expect("drawn");
             let behind = &maps.behind.as_ref().expect("asked for").one_by_one[0];
             let behind = depth_copy::depths(&stage.gpu, behind, MAP).expect("readable");
@@ -260,7 +261,7 @@ fn what_cannot_be_tested_between_layers_is_refused() {
     let maps = |points| {
         let format = DepthFormat::Float32;
         let pass = MapPass { format, faces: Faces::Layers, bias: Bias::NONE, receiver: 0.0, relative: 0.0, points };
-        let draw = MapDraw { map: Layout::Frustum(stage.map), casters: std::slice::from_ref(&all), pass };
+        let draw = MapDraw { map: &Layout::Frustum(stage.map.clone()), casters: std::slice::from_ref(&all), pass };
         ShadowMaps::draw(&stage.gpu, &geometry, &Split::whole(), &[Some(draw)])
     };
     let splats = maps(Points::Splats).err().expect("refused");
@@ -335,7 +336,8 @@ fn draw_hemispheres(stage: &Stage, maps: &[Paraboloid; 2], format: DepthFormat) 
         relative: 0.0,
         points: Points::Discs,
     };
-    let draws = maps.map(|map| Some(MapDraw { map: Layout::Paraboloid(map), casters: &all, pass }));
+    let layouts = maps.each_ref().map(|map| Layout::Paraboloid(map.clone()));
+    let draws = layouts.each_ref().map(|map| Some(MapDraw { map, casters: &all, pass }));
     let split = Split::halves(LAMP, maps[0].axis());
     ShadowMaps::draw(&stage.gpu, &cut.geometry, &split, &draws).expect("drawn")
 }
@@ -396,11 +398,12 @@ fn what_paraboloids_cannot_do_is_an_error() {
     };
     let all = 0..cloud.triangles.len() as u32;
     let all = [all];
-    let draws = maps.map(|map| Some(MapDraw { map: Layout::Paraboloid(map), casters: &all, pass }));
+    let layouts = maps.each_ref().map(|map| Layout::Paraboloid(map.clone()));
+    let draws = layouts.each_ref().map(|map| Some(MapDraw { map, casters: &all, pass }));
     let split = Split::halves(LAMP, maps[0].axis());
     let refused = ShadowMaps::draw(&stage.gpu, &geometry, &split, &draws).err().expect("refused");
     assert!(format!("{refused:#}").contains("as discs"), "{refused:#}");
-    let frustum = MapDraw { map: Layout::Frustum(stage.map), casters: &all, pass };
+    let frustum = MapDraw { map: &Layout::Frustum(stage.map.clone()), casters: &all, pass };
     let mixed = [draws[0], Some(frustum)];
     let refused = ShadowMaps::draw(&stage.gpu, &geometry, &split, &mixed).err().expect("refused");
     assert!(format!("{refused:#}").contains("differ in kind"), "{refused:#}");

@@ -8,7 +8,7 @@ use shadowfit::{DepthFormat, Settings, ShadowMap, depth::DepthBias, omni::Parabo
 pub const BENT: f64 = 0.5;
 
 /// A fitted map: how it lays out the world.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "a light has six at most")]
 pub enum Layout {
     /// A matrix.

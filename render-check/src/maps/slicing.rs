@@ -36,6 +36,7 @@ impl fmt::Display for SplitArg {
             shadowfit::cascades::SplitScheme::Uniform => f.write_str("uniform"),
             shadowfit::cascades::SplitScheme::Logarithmic => f.write_str("log"),
             shadowfit::cascades::SplitScheme::Practical(part) => write!(f, "blended:{part}"),
+            other => unreachable!("the command line has no word for {other:?}"),
         }
     }
 }

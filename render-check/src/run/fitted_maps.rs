@@ -44,7 +44,8 @@ impl FittedMap {
             Err(none) => return Ok(Err(none)),
         };
         let objects = casters(stage, &focus.caster_volume(FocusForm::ReceiverHull), |_| true);
-        Ok(Ok(Self { map, pass: options.pass(&map)?, objects }))
+        let pass = options.pass(&map)?;
+        Ok(Ok(Self { map, pass, objects }))
     }
 }
 
@@ -164,8 +165,9 @@ impl FittedMaps {
             let square = f64::from(map.clip_scale().length_squared()) / 2.0;
             let behind = (1.0 - square) / (1.0 + square) * reach;
             let objects = casters(stage, &body, |object| is_before(&map.clip_plane(), behind, object));
-            let map = Layout::Paraboloid(*map);
-            maps.push(Some(FittedMap { map, pass: options.pass(&map)?, objects }));
+            let map = Layout::Paraboloid(map.clone());
+            let pass = options.pass(&map)?;
+            maps.push(Some(FittedMap { map, pass, objects }));
         }
         Ok(Ok(Self::of(stage, split, vec![*light], maps, options.cut)?))
     }
@@ -260,9 +262,9 @@ impl FittedMaps {
     }
 
     /// What is drawn for each part.
-    fn draws<'a>(&self, casters: &'a [Vec<Range<u32>>]) -> Vec<Option<MapDraw<'a>>> {
-        let of = |(map, casters): (&Option<FittedMap>, &'a Vec<_>)| {
-            map.as_ref().map(|FittedMap { map, pass, .. }| MapDraw { map: *map, casters, pass: *pass })
+    fn draws<'a>(&'a self, casters: &'a [Vec<Range<u32>>]) -> Vec<Option<MapDraw<'a>>> {
+        let of = |(map, casters): (&'a Option<FittedMap>, &'a Vec<_>)| {
+            map.as_ref().map(|FittedMap { map, pass, .. }| MapDraw { map, casters, pass: *pass })
         };
         self.maps.iter().zip(casters).map(of).collect()
     }

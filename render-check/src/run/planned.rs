@@ -66,6 +66,7 @@ pub fn filter(filter: shadowfit::Filter, virtual_samples: bool) -> Filter {
         (Planned::Hardware2x2, true) => Filter::Virtual(2),
         (Planned::Pcf(taps), false) => Filter::Pcf(taps.max(1).into()),
         (Planned::Pcf(taps), true) => Filter::Virtual(taps.max(1).into()),
+        (other, _) => unreachable!("the harness has no filter {other:?}"),
     }
 }
 
@@ -142,10 +143,10 @@ impl FittedMaps {
         let mut maps = vec![None; split.parts()];
         for pass in of_light.passes() {
             let (part, map) = match pass.projection() {
-                Projection::Frustum(map) => (0, Layout::Frustum(*map)),
-                Projection::Face(face, map) => (*face as usize, Layout::Frustum(*map)),
+                Projection::Frustum(map) => (0, Layout::Frustum(map.clone())),
+                Projection::Face(face, map) => (*face as usize, Layout::Frustum(map.clone())),
                 Projection::Paraboloid(map) => {
-                    (usize::from(Some(map.axis()) != first_axis), Layout::Paraboloid(*map))
+                    (usize::from(Some(map.axis()) != first_axis), Layout::Paraboloid(map.clone()))
                 }
             };
             let objects = plan.casters(pass).iter().map(|&id| id as usize).collect();
@@ -179,6 +180,7 @@ pub fn kind_in_words(kind: Kind) -> &'static str {
         Kind::Paraboloid => "paraboloid",
         Kind::DualParaboloid => "two paraboloids",
         Kind::CubeFaces => "cube faces",
+        other => unreachable!("the harness has no word for {other:?}"),
     }
 }
 

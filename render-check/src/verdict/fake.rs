@@ -114,7 +114,7 @@ pub(crate) fn fitted(light: &LightSpec, settings: &Settings) -> ShadowMap {
     let (min, max) = mesh().bounds();
     let scene = Scene::from_box(min, max).expect("a sound box");
     let light = light.to_light(LAMP_NEAR).expect("a sound light");
-    *fit(&view(), &light, &scene, settings).map().expect("one frustum does")
+    fit(&view(), &light, &scene, settings).into_map().expect("one frustum does")
 }
 
 /// The triangle in each pixel.

@@ -10,7 +10,7 @@ use super::projection::Projection;
 const F32_ROUNDING: f64 = 8.0 / 16_777_216.0;
 
 /// The projection of a fitted [`ShadowMap`].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Frustum {
     map: ShadowMap,
     /// The rows of the matrix: x, y up, depth from 0 to 1, and w, each to be divided by w.
@@ -29,7 +29,7 @@ impl Frustum {
         let clip_from_world = map.clip_from_world_in(ClipSpace::WGPU);
         let [x, y, depth, w] = [0, 1, 2, 3].map(|i| clip_from_world.row(i));
         let origin = map.origin();
-        Self { map: *map, x, y, depth, w, origin }
+        Self { map: map.clone(), x, y, depth, w, origin }
     }
 
     /// Texels for each unit of clip space, which is two units wide.

@@ -7,7 +7,7 @@ use super::projection::Projection;
 use crate::maps::BENT;
 
 /// The projection of a fitted [`Paraboloid`].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Hemisphere {
     map: Paraboloid,
 }
@@ -16,7 +16,7 @@ impl Hemisphere {
     /// The projection of a map.
     #[must_use]
     pub fn new(map: &Paraboloid) -> Self {
-        Self { map: *map }
+        Self { map: map.clone() }
     }
 
     /// Texels for a step of 1 in u or v.

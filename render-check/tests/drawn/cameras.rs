@@ -108,7 +108,8 @@ fn two_eyes_in_one_map() {
             let objects =
                 objects.filter(|(_, object)| casts(object.min, object.max)).map(|(index, _)| index).collect();
             let layout = Layout::Frustum(map);
-            let fitted = FittedMap { map: layout, pass: options.pass(&layout).expect("sound"), objects };
+            let pass = options.pass(&layout).expect("sound");
+            let fitted = FittedMap { map: layout, pass, objects };
             let lights = vec![light.light];
             let fitted =
                 FittedMaps::of(stage, Split::whole(), lights, vec![Some(fitted)], options.cut).expect("sound");

@@ -120,7 +120,7 @@ fn one_slice_is_the_view() {
     for technique in [Technique::Psm, Technique::Stable] {
         let options = sliced(technique, 1);
         let [one, whole] = [options, Options { slicing: None, ..options }].map(|it| run_one(&stage, &light, &it));
-        assert_eq!(one.fitted.maps[0].as_ref().map(|it| it.map), whole.fitted.maps[0].as_ref().map(|it| it.map));
+        assert_eq!(one.fitted.maps[0].as_ref().map(|it| &it.map), whole.fitted.maps[0].as_ref().map(|it| &it.map));
         assert!(one.verdict == whole.verdict && one.prediction == whole.prediction);
     }
 }

@@ -122,7 +122,8 @@ fn judged(stage: &Stage<'_>, light: &StageLight, map: &ShadowMap, casters: &[std
         points: Points::Discs,
     };
     let split = Split::whole();
-    let draw = MapDraw { map: Layout::Frustum(*map), casters, pass };
+    let layout = Layout::Frustum(map.clone());
+    let draw = MapDraw { map: &layout, casters, pass };
     let shadow_maps = ShadowMaps::draw(stage.gpu, &stage.geometry, &split, &[Some(draw)]).expect("drawn");
     let lit = shadow_test(stage.gpu, &stage.surfaces, &shadow_maps, Filter::Nearest).expect("tested").lit;
     let depths = shadow_maps.depths(stage.gpu).expect("readable");
@@ -147,7 +148,7 @@ fn a_caster_that_is_not_drawn_is_found_missing() {
     let stage = Stage::new(&gpu, &tracer, &view, IMAGE).expect("drawn");
     let light = stage.light(scene.lights[0]).expect("sound");
     let settings = Settings::new(512, IMAGE[1]).expect("sound").with_origin(Origin::Eye);
-    let map = *fit(&view, &light.light, &stage.bounds, &settings).map().expect("one map does");
+    let map = fit(&view, &light.light, &stage.bounds, &settings).into_map().expect("one map does");
     let all: Vec<_> = scene.mesh.objects.iter().map(|object| object.triangles.clone()).collect();
     assert_eq!(judged(&stage, &light, &map, &all).counts.missing, 0);
 

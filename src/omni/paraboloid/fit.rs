@@ -12,7 +12,7 @@ use core::slice;
 use glam::DVec3;
 
 /// What comes of a fit of paraboloid maps.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "a box would need a heap")]
 pub enum Paraboloids {
     /// No map is needed.

@@ -62,7 +62,7 @@ use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec4};
 ///   is from 0 to 1. There is an exception as for [`ShadowMap`](crate::ShadowMap): a light so far from the origin that f32 cannot tell its near
 ///   distance is served from where it can;
 /// - points on a ray from the light share their (u, v), and depth grows away from the light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Paraboloid {
     position: DVec3,
     x_axis: DVec3,

@@ -111,7 +111,7 @@ fn a_lamp_in_view_costs_the_walls_little() {
                 (CubeFace::PositiveX, DVec3::new(2.5, 1.2, -2.0)),
             ] {
                 let light = Light::point(lamp, near, f64::INFINITY).and_then(|lamp| lamp.cube_face(face, 0.01));
-                let map = *fit(&view, &light.expect("sound"), &scene, &settings).map().expect("a map");
+                let map = fit(&view, &light.expect("sound"), &scene, &settings).into_map().expect("a map");
                 // Not stretched by what is next to the lamp: the near plane is where its near distance is in a corner of the
                 // face, 1/√3 of it on the axis, or half of that, as casters next to a light may double the range.
                 assert!(

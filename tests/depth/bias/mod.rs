@@ -23,7 +23,7 @@ const FORMATS: [DepthFormat; 4] =
 
 /// A plane under a lamp and the sun, seen from a person's height, and bodies above it.
 fn outdoors(light: &Light, settings: &Settings) -> ShadowMap {
-    *fit(&view(), light, &scene(), settings).map().expect("a map")
+    fit(&view(), light, &scene(), settings).into_map().expect("a map")
 }
 
 fn view() -> View {

@@ -77,7 +77,7 @@ fn scaling_by_a_power_of_two_scales_nothing_in_texels() {
         }
         let (here, there) = (Together::of(&case), Together::of(&scaled));
         let (Some(map), Some(scaled)) =
-            (here.focus().fit(&settings).map().copied(), there.focus().fit(&settings).map().copied())
+            (here.focus().fit(&settings).into_map(), there.focus().fit(&settings).into_map())
         else {
             return;
         };

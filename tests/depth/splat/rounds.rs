@@ -132,7 +132,7 @@ pub(crate) fn landscape(settings: &Settings) -> ShadowMap {
         View::perspective((0.0, 2.0, 12.0), (0.0, -0.2, -1.0), DVec3::Y, 1.0, 1.6, 0.5, 100.0).expect("sound");
     let scene = Scene::from_box((-20.0, -1.0, -20.0), (20.0, 4.0, 20.0)).expect("sound");
     let sun = Light::directional(TO_SUN).expect("sound");
-    *fit(&view, &sun, &scene, settings).map().expect("one map does")
+    fit(&view, &sun, &scene, settings).into_map().expect("one map does")
 }
 
 /// Texels of a clip position in the map's own convention.

@@ -23,7 +23,7 @@ pub(super) fn of_search(focus: &Focus<'_>, map: &ShadowMap, points: &[DVec3]) ->
         return None;
     }
     let part = map.weakening();
-    let uniform = *focus.fit(&map.settings().with_warp(Warp::Uniform)).map()?;
+    let uniform = focus.fit(&map.settings().with_warp(Warp::Uniform)).into_map()?;
     // Other parts are what f32 needs, which was there when the map was compared.
     if !PARTS.iter().any(|mixed| (part - mixed).abs() < 1e-9) {
         return None;

@@ -27,19 +27,20 @@ impl Walk {
     fn next(&self, before: &ShadowMap) -> Option<(ShadowMap, f64)> {
         let (view, scene) = (self.view(), outdoors::town());
         let focus = Focus::new(&view, &self.light, &scene);
-        let map = *focus.fit_warm(before, &settings()).map()?;
+        let map = focus.fit_warm(before, &settings()).into_map()?;
         let place = |map: &ShadowMap, point: DVec3| {
             let clip = map.texture_from_world() * point.extend(1.0);
             clip.truncate().truncate() / clip.w
         };
         let moved = |&point: &DVec3| (place(&map, point) - place(before, point)).abs().max_element();
-        Some((map, focus.receiver_volume().vertices().iter().map(moved).fold(0.0, f64::max)))
+        let moved = focus.receiver_volume().vertices().iter().map(moved).fold(0.0, f64::max);
+        Some((map, moved))
     }
 
     /// The map on its own, and then from itself until it rests.
     fn settled(&self) -> Option<ShadowMap> {
         let (view, scene) = (self.view(), outdoors::town());
-        let mut map = *Focus::new(&view, &self.light, &scene).fit(&settings()).map()?;
+        let mut map = Focus::new(&view, &self.light, &scene).fit(&settings()).into_map()?;
         for _ in 0..MOST_FRAMES {
             let (next, moved) = self.next(&map)?;
             map = next;

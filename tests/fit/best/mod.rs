@@ -76,7 +76,7 @@ fn comes_within_a_twentieth(settings: &Settings, cases: usize, [good, thorough]:
             let Some(plane) = Plane::new(&view, &light, &points, width / height) else { continue };
             let best_map = |effort| {
                 let outcome = focus.fit(&settings.with_warp(Warp::Best(effort)));
-                outcome.map().copied()
+                outcome.into_map()
             };
             let found = EFFORTS.map(|effort| best_map(effort).and_then(|map| of_search(&focus, &map, &points)));
             tried += 1;
@@ -131,7 +131,7 @@ fn is_never_worse_than_a_closed_form() {
         let together = Together::of(&case);
         let focus = together.focus();
         let settings = of_sides(sides).with_shift(shift);
-        let fitted = |warp| focus.fit(&settings.with_warp(warp)).map().copied();
+        let fitted = |warp| focus.fit(&settings.with_warp(warp)).into_map();
         let Some(best) = fitted(Warp::Best(effort)) else { return };
         all.set(all.get() + 1);
         if padding(&best) > MOST_PADDING {
@@ -156,7 +156,7 @@ fn a_map_of_the_same_frame_is_kept() {
         let together = Together::of(&case);
         let focus = together.focus();
         let settings = of_sides(sides).with_warp(Warp::Best(Effort::Good));
-        let Some(&first) = focus.fit(&settings).map() else { return };
+        let Some(first) = focus.fit(&settings).into_map() else { return };
         let again = focus.fit_warm(&first, &settings);
         let again = again.map().expect("a map as before");
         if padding(&first).max(padding(again)) <= MOST_PADDING {

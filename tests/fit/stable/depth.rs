@@ -15,8 +15,7 @@ fn depth_ranges_of_a_sun_move_in_steps() {
         let settings = settings.with_origin(Origin::Eye);
         let light = Light::directional(sun * DVec3::Y).expect("a legal light");
         form.with(DVec3::ZERO, |scene| {
-            let maps =
-                poses.map(|pose| fit(&lens.view(DVec3::ZERO, &pose), &light, scene, &settings).map().copied());
+            let maps = poses.map(|pose| fit(&lens.view(DVec3::ZERO, &pose), &light, scene, &settings).into_map());
             let [Some(one), Some(other)] = maps else { return };
             let ends = |map: &ShadowMap| {
                 let row = rows(map).z_axis;
@@ -62,7 +61,7 @@ fn a_walk_changes_depth_rarely_and_texels_never() {
             let pose = Pose { eye: [0.05 * frame, 1.7, -0.03 * frame], turn };
             let view = lens.view(middle, &pose);
             let fitted = Form::Block.with(middle, |scene| fit(&view, &light, scene, &settings));
-            (*fitted.map().expect("one map does"), view.eye())
+            (fitted.into_map().expect("one map does"), view.eye())
         })
         .collect();
     let (first, first_eye) = &maps[0];

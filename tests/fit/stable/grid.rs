@@ -25,7 +25,7 @@ fn cameras_that_move_and_turn_keep_extent_and_grid() {
         let settings = settings.with_origin(Origin::Eye);
         let light = Light::directional(sun * DVec3::Y).expect("a legal light");
         let maps = form.with(middle, |scene| {
-            poses.map(|pose| fit(&lens.view(middle, &pose), &light, scene, &settings).map().copied())
+            poses.map(|pose| fit(&lens.view(middle, &pose), &light, scene, &settings).into_map())
         });
         let [Some(one), Some(other)] = maps else { return };
         counted.set(counted.get() + 1);
@@ -60,7 +60,7 @@ fn points_stay_where_they_are_in_their_texels() {
         let settings = settings.with_origin(Origin::Eye);
         form.with(middle, |scene| {
             let views = poses.map(|pose| lens.view(middle, &pose));
-            let [one, other] = views.map(|view| fit(&view, &light, scene, &settings).map().copied());
+            let [one, other] = views.map(|view| fit(&view, &light, scene, &settings).into_map());
             let (Some(one), Some(other)) = (one, other) else { return };
             for point in points_of(&Focus::new(&views[0], &light, scene).receiver_volume(), seed) {
                 let terms = |map: &ShadowMap| {
@@ -95,7 +95,7 @@ fn points_stay_where_they_are_in_f32_about_the_eye() {
         let light = Light::directional(sun * DVec3::Y).expect("a legal light");
         form.with(middle, |scene| {
             let views = poses.map(|pose| lens.view(middle, &pose));
-            let [one, other] = views.map(|view| fit(&view, &light, scene, &settings).map().copied());
+            let [one, other] = views.map(|view| fit(&view, &light, scene, &settings).into_map());
             let (Some(one), Some(other)) = (one, other) else { return };
             let bodies = views.map(|view| Focus::new(&view, &light, scene).receiver_volume());
             for ((map, view), body) in [&one, &other].into_iter().zip(&views).zip(&bodies) {
@@ -141,7 +141,7 @@ fn points_stay_where_they_are_in_f32_about_the_origin() {
         let light = Light::directional(sun * DVec3::Y).expect("a legal light");
         form.with(middle, |scene| {
             let views = poses.map(|pose| lens.view(middle, &pose));
-            let [one, other] = views.map(|view| fit(&view, &light, scene, &settings).map().copied());
+            let [one, other] = views.map(|view| fit(&view, &light, scene, &settings).into_map());
             let (Some(one), Some(other)) = (one, other) else { return };
             pairs.set(pairs.get() + 1);
             if sides(&one) != sides(&other) {
@@ -178,7 +178,7 @@ fn texels_grow_by_powers_of_two() {
     let light = Light::directional((0.4, 1.0, 0.2)).expect("sound");
     let [about_eye, in_world] = [Origin::Eye, Origin::World].map(|origin| {
         let settings = Settings::default().with_warp(Warp::Stable).with_origin(origin);
-        *Form::Block.with(middle, |scene| fit(&view, &light, scene, &settings)).map().expect("one map does")
+        Form::Block.with(middle, |scene| fit(&view, &light, scene, &settings)).into_map().expect("one map does")
     });
     let times = sides(&in_world) / sides(&about_eye);
     assert!(
@@ -214,7 +214,7 @@ fn views_by_their_matrices_have_one_grid_too() {
             let maps = poses.map(|pose| {
                 let world_from_eye = DMat4::from_rotation_translation(pose.turn, pose.eye.into());
                 let view = View::from_matrices(world_from_eye.inverse(), projection, ClipSpace::WGPU);
-                fit(&view.expect("a legal view"), &light, scene, &settings).map().copied()
+                fit(&view.expect("a legal view"), &light, scene, &settings).into_map()
             });
             let [Some(one), Some(other)] = maps else { return };
             assert_eq!(sides(&one), sides(&other));

@@ -32,7 +32,8 @@ fn refusals() {
         (face, bounds, f64::INFINITY, None),
     ];
     for (light, scene, far, refusal) in cases {
-        let map = |warp| *fit(&view(far), &light, &scene, &settings.with_warp(warp)).map().expect("one map does");
+        let map =
+            |warp| fit(&view(far), &light, &scene, &settings.with_warp(warp)).into_map().expect("one map does");
         let (stable, uniform) = (map(Warp::Stable), map(Warp::Uniform));
         assert_eq!(stable.fallback(), refusal, "{light:?}, far {far}");
         assert_eq!(uniform.fallback(), None);

@@ -15,7 +15,7 @@ fn the_window_holds_what_is_visible() {
         let together = Together::of(&case);
         let focus = together.focus();
         let [map, uniform] = [Warp::Stable, Warp::Uniform].map(|warp| focus.fit(&settings.with_warp(warp)));
-        let (Some(map), Some(uniform)) = (map.map().copied(), uniform.map().copied()) else { return };
+        let (Some(map), Some(uniform)) = (map.into_map(), uniform.into_map()) else { return };
         let size = arbitrary::sides(&settings);
         if map.fallback().is_some() {
             assert_eq!(map.caster_matrix(), uniform.caster_matrix());
@@ -59,7 +59,7 @@ fn a_scene_that_is_smaller_than_the_view_has_one_window() {
                         f64::INFINITY,
                     );
                     let view = if infinite { endless.expect("a legal view") } else { view };
-                    fit(&view, &light, scene, &settings).map().copied()
+                    fit(&view, &light, scene, &settings).into_map()
                 });
                 let [Some(one), Some(other)] = maps else { return };
                 let (a, b) = (rows(&one), rows(&other));
@@ -89,8 +89,7 @@ fn lamps_with_a_frustum_of_their_own_have_one_window() {
         let light = light.expect("a legal light");
         for form in [Form::Block, Form::Lists] {
             form.with(middle, |scene| {
-                let maps =
-                    poses.map(|pose| fit(&lens.view(middle, &pose), &light, scene, &settings).map().copied());
+                let maps = poses.map(|pose| fit(&lens.view(middle, &pose), &light, scene, &settings).into_map());
                 let [Some(one), Some(other)] = maps else { return };
                 counted.set(counted.get() + 1);
                 assert_eq!([one.fallback(), other.fallback()], [None; 2]);
@@ -126,7 +125,7 @@ fn the_map_of_a_spot_is_as_wide_as_its_cone() {
     let settings = Settings::default().with_warp(Warp::Stable);
     for half_angle in [0.2, 0.7, 1.2] {
         let light = Light::spot((0.0, 9.0, 0.0), (0.3, -1.0, 0.2), half_angle, 0.1, 60.0).expect("sound");
-        let map = *fit(&view, &light, &scene, &settings).map().expect("one map does");
+        let map = fit(&view, &light, &scene, &settings).into_map().expect("one map does");
         let wide = 2.0 * half_angle.tan() * 2048.0 / 2046.0;
         for side in [map.window().width, map.window().height] {
             assert!(side >= wide && side <= wide * (1.0 + 1.0 / 128.0) * (1.0 + 1.0 / 4096.0), "{side} {wide}");

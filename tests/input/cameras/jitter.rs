@@ -28,7 +28,7 @@ fn stable(eye_from_world: Mat4, projection: Mat4, sun: DVec3) -> ShadowMap {
     let settings = Settings::new(2048, HEIGHT).expect("legal sizes").with_warp(Warp::Stable);
     let scene = Scene::from_box((-400.0, 0.0, -400.0), (400.0, 60.0, 400.0)).expect("sound");
     let light = Light::directional(sun).expect("sound");
-    *fit(&view.expect("a camera"), &light, &scene, &settings).map().expect("one map does")
+    fit(&view.expect("a camera"), &light, &scene, &settings).into_map().expect("one map does")
 }
 
 /// The rows of x and y of the matrix, to the bit: extent, grid and place.

@@ -118,7 +118,7 @@ fn nothing_of_h_is_lost() {
                     for body in &bodies {
                         assert!(body.intersects_aabb(caster, caster), "{mirror:?}: {caster} before {point}");
                     }
-                    if let Outcome::Map(map) = outcome
+                    if let Outcome::Map(map) = &outcome
                         && light.position().is_none_or(|at| at.distance(caster) > 0.1)
                     {
                         let place = map.clip_from_world_in(ClipSpace::WGPU).project_point3(caster);

@@ -20,7 +20,7 @@ fn face(at: f64, origin: Origin) -> (ShadowMap, DVec3) {
     let (view, light) = (view.expect("a legal view"), light.expect("a lamp has faces"));
     let scene = Scene::from_box(lamp - 30.0, lamp + 30.0).expect("a legal box");
     let settings = Settings::new(512, 1080).expect("legal sizes").with_warp(Warp::Uniform).with_origin(origin);
-    let map = *Focus::new(&view, &light, &scene).fit(&settings).map().expect("a map");
+    let map = Focus::new(&view, &light, &scene).fit(&settings).into_map().expect("a map");
     (map, lamp + DVec3::new(2.0, 1.0, -15.0))
 }
 
@@ -47,7 +47,7 @@ fn a_lamps_map_is_the_same_wherever_it_stands() {
                 Origin::Light => assert!(bias <= 1.1 * at_home[1], "{at} m out: {bias}"),
                 // A lamp 25 m from the eye is as one 25 m from the origin, wherever that is.
                 Origin::Eye => assert!(bias <= 1.1 * measured(0.0, Origin::Eye)[1], "{at} m out: {bias}"),
-                Origin::World => assert!(bias >= at_home[1]),
+                _ => assert!(bias >= at_home[1]),
             }
         }
     }

@@ -66,7 +66,7 @@ fn both_hemispheres_mirror_each_other() {
     let mut numbers = Numbers(2);
     for _ in 0..1000 {
         let point = front.position() + from_light(&front, direction_about(&mut numbers)) * 3.0;
-        let [Some(a), Some(b)] = [front, back].map(|map| map.project(point)) else { continue };
+        let [Some(a), Some(b)] = [&front, &back].map(|map| map.project(point)) else { continue };
         let (a_place, b_place) = (a.truncate(), b.truncate());
         // Inverse points about the rim, u turned.
         let inverse = a_place * DVec2::new(-1.0, 1.0) / a_place.length_squared();

@@ -127,7 +127,7 @@ impl Prepared {
         let (view, light) = (setup.camera.view(), setup.lamp.light());
         let settings = setup.settings().with_warp(kind.warp());
         let outcome = Focus::new(&view, &light, &setup.scene()).fit(&settings);
-        let map = *outcome.map().context("whether there is a map does not depend on the warp")?;
+        let map = outcome.into_map().context("whether there is a map does not depend on the warp")?;
         let visible = setup.visible().into_iter().map(|p| p.as_vec3().as_dvec3()).collect();
         Ok(Self { setup, view, light, settings, map, visible })
     }
@@ -264,13 +264,12 @@ impl Timed<'_> {
 }
 
 fn work(case: &Prepared, precision: Precision) {
-    let map =
-        || *Focus::new(&case.view, &case.light, &case.setup.scene()).fit(&case.settings).map().unwrap_or(&case.map);
+    let map = || Focus::new(&case.view, &case.light, &case.setup.scene()).fit(&case.settings).into_map();
     match precision {
         Precision::F32 => drop(black_box(case.by_hand::<f32>())),
         Precision::F64 => drop(black_box(case.by_hand::<f64>())),
         Precision::Big => drop(black_box(case.by_hand::<Big>())),
-        Precision::Ours => drop(black_box(map().clip_from_world_in(ClipSpace::WGPU))),
-        Precision::Uploaded => drop(black_box(map().caster_matrix())),
+        Precision::Ours => drop(black_box(map().map(|map| map.clip_from_world_in(ClipSpace::WGPU)))),
+        Precision::Uploaded => drop(black_box(map().map(|map| map.caster_matrix()))),
     }
 }

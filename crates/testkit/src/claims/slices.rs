@@ -83,7 +83,7 @@ pub fn one_is_a_plain_fit(case: &Case, cutting: &Cutting, settings: &Settings) {
     for slices in [one.slices(&together), at_none.expect("no cuts")] {
         assert_eq!(slices.len(), 1);
         assert_eq!(slices[0].focus.view(), &together.view);
-        assert_eq!(slices.fit(settings).outcomes(), [plain]);
+        assert_eq!(slices.fit(settings).outcomes(), std::slice::from_ref(&plain));
     }
 }
 

@@ -81,7 +81,7 @@ fn of_upload(map: &ShadowMap) -> M4<Big> {
 fn origin(setup: &Setup) -> DVec3 {
     match setup.origin {
         Origin::World => DVec3::ZERO,
-        Origin::Eye | Origin::Light => setup.camera.eye,
+        _ => setup.camera.eye,
     }
 }
 

@@ -111,9 +111,9 @@ impl Setup {
     }
 
     pub fn map(&self) -> ShadowMap {
-        *Focus::new(&self.camera.view(), &self.lamp.light(), &self.scene())
+        Focus::new(&self.camera.view(), &self.lamp.light(), &self.scene())
             .fit(&self.settings())
-            .map()
+            .into_map()
             .expect("one map does")
     }
 

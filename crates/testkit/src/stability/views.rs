@@ -93,7 +93,7 @@ pub fn one_camera_in_every_convention() -> Table {
         let all = conventions(near, far);
         let first = Focus::new(&all[0].1, &light, &scene);
         let settings = Settings::default().with_warp(Warp::Perspective);
-        let map = |focus: &Focus<'_>| *focus.fit(&settings).map().expect("one map does");
+        let map = |focus: &Focus<'_>| focus.fit(&settings).into_map().expect("one map does");
         for (name, view) in &all {
             let focus = Focus::new(view, &light, &scene);
             let of_far = if far.is_finite() { (view.far() / all[0].1.far() - 1.0).abs() } else { 0.0 };

@@ -47,7 +47,7 @@ pub fn draw(args: &DrawArgs) -> Result<()> {
         .collect::<Result<Vec<_>>>()?;
     say(&table(&fits, tracer.bounds()).to_string());
     for (i, fit) in fits.iter().enumerate() {
-        if let Err(none) = map_or_reason(fit.maps[0].outcome) {
+        if let Err(none) = map_or_reason(fit.maps[0].outcome.clone()) {
             say(&format!("light {}: no map: {none}", i + 1));
         }
     }

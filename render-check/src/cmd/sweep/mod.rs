@@ -95,8 +95,8 @@ pub fn run_shots(gpu: &Gpu, group: &'static str, shots: &[Shot], done: impl Fn()
         let tracer = Tracer::new(&shot.scene.mesh)?;
         let stage = Stage::new(gpu, &tracer, &shot.view, shot.image)?;
         let stage = match shot.origin {
-            Origin::Eye | Origin::Light => stage,
             Origin::World => stage.in_world_space()?,
+            _ => stage,
         };
         for (words, spec) in &shot.lights {
             let light = stage.light(*spec).with_context(|| format!("{group}: {}, {words}", shot.name))?;
