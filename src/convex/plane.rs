@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3, DVec4};
 /// An oriented plane: inside where `normal · x + offset ≥ 0`. The normal points inwards and need not be unit length.
 ///
 /// The same four numbers are a covector: a linear function of homogeneous points, `(normal, offset) · (x, w)`. Rows of
-/// projection matrices are covectors, which is how they turn into planes and back (DESIGN: "rows of C").
+/// projection matrices are covectors, which is how they turn into planes and back (`docs/design.md`, section 2).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Plane {

@@ -5,7 +5,7 @@ use crate::math::bounds::{Interval, Rectangle, most};
 use crate::warp::rays::{Functional, Rays};
 use glam::{DMat2, DMat4, DVec2, DVec3, DVec4};
 
-/// Three covectors that vanish at the light, and a depth row that does not (DESIGN section 2):
+/// Three covectors that vanish at the light, and a depth row that does not (`docs/design.md`, section 2):
 ///
 /// ```text
 ///     u = a·X / c·X      v = b·X / c·X      z = e·X / c·X

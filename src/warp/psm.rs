@@ -9,8 +9,8 @@ use glam::DVec3;
 /// The perspective warp: w as the light's own camera has it, which stands at λ and looks at the middle of the unit cube
 /// that the camera's perspective makes of its frustum (Stamminger & Drettakis 2002, §3.2).
 ///
-/// With the target at the origin of post-perspective space, g = −λ/|λ|, and the plane through the light of DESIGN
-/// section 2, `c = λw·A(g) − (g·λ) C₃`, becomes a polynomial in λ, times |λ|:
+/// With the target at the origin of post-perspective space, g = −λ/|λ|, and the plane through the light across g,
+/// `c = λw·A(g) − (g·λ) C₃` with A(v) = v₀ C₀ + v₁ C₁ + v₂ C₂, becomes a polynomial in λ, times |λ|:
 ///
 /// ```text
 ///     c = |λxyz|² C₃ − λw (λx C₀ + λy C₁ + λz C₂)

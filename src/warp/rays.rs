@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3};
 /// A chart of the rays of a light: a plane that each of them meets once.
 ///
 /// The lines through l form a projective plane. A covector that vanishes at l is a linear function of `(U, V, 1)` on
-/// this chart, and every single-pass shadow matrix for l is a homography of it (DESIGN section 2). The chart itself is
+/// this chart, and every single-pass shadow matrix for l is a homography of it (`docs/design.md`, section 2). The chart itself is
 /// the uniform map:
 ///
 /// ```text

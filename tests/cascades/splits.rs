@@ -111,7 +111,7 @@ fn cuts_of_the_planes_stay() {
     assert_eq!(at(1.0, CascadeSplits::At(&kept[..3])), kept);
 }
 
-/// DESIGN section 2, with its light overhead and all of V receiving: a uniform map of a view from n to f needs f/n texels
+/// `docs/design.md`, section 8, with its light overhead and all of V receiving: a uniform map of a view from n to f needs f/n texels
 /// across and (f − n)/(2T n) along the view for each pixel. Cut logarithmically, each of k slices is a view whose ends have
 /// the ratio ρ = (f/n)^(1/k), so that all need ρ and (ρ − 1)/(2T), and together k ρ(ρ − 1)/(2T), which tends to
 /// ln(f/n)/(2T) from above.

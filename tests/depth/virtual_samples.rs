@@ -144,7 +144,7 @@ fn a_plane_never_shadows_itself_without_any_bias() {
     }
 }
 
-/// HARD_CASES 33: a sheet has its own depth stored; with < in place of ≤ it would shadow itself.
+/// Hard case 33: a sheet has its own depth stored; with < in place of ≤ it would shadow itself.
 #[test]
 fn a_thin_sheet_passes_by_at_most() {
     let map = &grounds()[0];

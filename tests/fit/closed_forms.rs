@@ -1,6 +1,6 @@
 //! Figures that have closed forms, and configurations that must give the same answer.
 //!
-//! The table of DESIGN section 2: light at right angles to the view, all of V receives, T the tangent of half the field
+//! The table of `docs/design.md`, section 8: light at right angles to the view, all of V receives, T the tangent of half the field
 //! of view. Rs and Rt are the texels needed across and along the warp for each pixel of the image's height, so that no
 //! texel is larger than a pixel:
 //!
@@ -16,7 +16,7 @@
 //!     Rs = max(n/n', f/f') max(n'/n, f'/f)      Rt = (f − n)/(2T n' f') max(n'²/n, f'²/f)
 //! ```
 //!
-//! of which DESIGN has the Rs of n' ≥ n, where the wider parts are the first of one and the second of the other: the window
+//! of which that page has the Rs of n' ≥ n, where the wider parts are the first of one and the second of the other: the window
 //! is as wide as the widest of R over c, and a texel as wide as that times c.
 
 use approx::assert_relative_eq;
@@ -111,7 +111,7 @@ fn z_n(far: f64) -> f64 {
 }
 
 /// The plane c = 0 lies n_opt = z_n + √(z_n (z_n + f − n)) before the near plane, n + √(nf) where f/n is no more than 256; the
-/// figures of DESIGN's table to its six digits.
+/// figures of the table to its six digits.
 #[test]
 fn texels_needed_by_the_light_space_map() {
     let table = [(10.0, 3.162_28, 2.846_05), (100.0, 10.0, 9.9), (1000.0, 31.622_8, 31.591_2), (1e4, 100.0, 99.99)];
@@ -414,7 +414,7 @@ fn along_the_view_the_warp_is_the_uniform_map() {
     }
 }
 
-/// HARD_CASES row 15. From a light at a distance D a scene of size S is seen under an angle S/D: rays differ by that
+/// Hard case 15. From a light at a distance D a scene of size S is seen under an angle S/D: rays differ by that
 /// from those of a light at infinity, and each coordinate in the map by a few times that.
 #[test]
 fn a_light_far_away_is_a_directional_light() {
@@ -455,7 +455,7 @@ fn a_light_far_away_is_a_directional_light() {
     }
 }
 
-/// HARD_CASES row 1: λw = 0 with either sign is one light, and one map to the last bit.
+/// Hard case 1: λw = 0 with either sign is one light, and one map to the last bit.
 #[test]
 fn negative_zero_is_zero() {
     let scene = Scene::from_box(DVec3::new(-50.0, -2.0, -50.0), DVec3::new(50.0, 8.0, 50.0)).unwrap();

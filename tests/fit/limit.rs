@@ -18,12 +18,12 @@ fn sizes() -> Settings {
 }
 
 /// The limit of a map and an image of one height, squared: the texels that are needed for each pixel of its height,
-/// squared. DESIGN section 2 calls it S.
+/// squared. `docs/design.md` calls it S.
 fn needed(focus: &Focus<'_>) -> f64 {
     (focus.aliasing_lower_bound(&sizes()) * f64::from(MAP) / f64::from(IMAGE)).powi(2)
 }
 
-/// DESIGN section 2: S = ln(f/n)/2T for light at right angles to the view with all of V as receivers.
+/// `docs/design.md`, section 8: S = ln(f/n)/2T for light at right angles to the view with all of V as receivers.
 #[test]
 fn light_from_overhead() {
     for far in [10.0_f64, 100.0, 1000.0, 1e4] {

@@ -163,7 +163,7 @@ fn reaches(focus: &Focus<'_>, form: Option<FocusForm>) -> Vec<f64> {
         .collect()
 }
 
-/// HARD_CASES row 26: equivalent cameras have one H. Mirrored ones see the same too, the other way round.
+/// Hard case 26: equivalent cameras have one H. Mirrored ones see the same too, the other way round.
 #[test]
 fn one_focus_body_in_every_convention() {
     let scene = Scene::from_box(DVec3::new(-20.0, -1.0, -40.0), DVec3::new(20.0, 9.0, 12.0)).unwrap();
@@ -282,7 +282,7 @@ fn cameras_of_glam() {
     }
 }
 
-/// HARD_CASES row 26: without perspective every light keeps its kind.
+/// Hard case 26: without perspective every light keeps its kind.
 #[test]
 fn orthographic_views_change_no_light() {
     let view = Camera::new(Lens::Orthographic, 100.0).view(-1.0, 1.0, ClipSpace::WGPU);
@@ -479,7 +479,7 @@ fn project_in_f32(matrix: &Mat4, relative: DVec3) -> Vec3 {
     clip.truncate() / clip.w
 }
 
-/// HARD_CASES row 25: far from the origin of the world f32 keeps what it keeps near it, a small part of a texel.
+/// Hard case 25: far from the origin of the world f32 keeps what it keeps near it, a small part of a texel.
 #[test]
 fn far_away_positions_relative_to_the_eye_keep_their_texel() {
     let far = DVec3::new(1e7, -2e7, 0.7e7);

@@ -1,4 +1,4 @@
-//! HARD_CASES row 36: what cannot be fitted is refused at the door, with the name of the field; never a panic, a hang or
+//! Hard case 36: what cannot be fitted is refused at the door, with the name of the field; never a panic, a hang or
 //! a NaN in a result.
 
 use shadowfit::glam::{DMat4, DVec3, DVec4, Vec3};

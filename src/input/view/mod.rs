@@ -371,7 +371,7 @@ impl View {
         matrix_from_rows(self.rows(self.near, self.far))
     }
 
-    /// The rows C₀ C₁ C₂ C₃ of the camera's matrix (DESIGN section 2) with z running from −1 at depth `near` to 1 at
+    /// The rows C₀ C₁ C₂ C₃ of the camera's matrix (`docs/design.md`, section 2) with z running from −1 at depth `near` to 1 at
     /// depth `far`.
     pub(crate) fn rows(&self, near: f64, far: f64) -> [Plane; 4] {
         let centre = (self.frame_min + self.frame_max) * 0.5;

@@ -110,7 +110,7 @@ pub(crate) fn choose<P: Iterator<Item = DVec3> + Clone>(
 const MIXED: [f64; 6] = [0.0, 0.125, 0.25, 0.5, 1.0, f64::INFINITY];
 
 /// By how much a mixed map's score must be better than that of the map that was found, and by how much the uniform map's. The samples
-/// know nothing of what is seen: on scenes that were drawn and counted (README, the table of predictions) differences of less said
+/// know nothing of what is seen: on scenes that were drawn and counted (`docs/warps.md`) differences of less said
 /// nothing of wrong pixels. Where f32 is short it needs not be better at all.
 const WORTH_MIXING: f64 = 1.0 / 32.0;
 const WORTH_NO_WARP: f64 = 1.0 / 12.0;

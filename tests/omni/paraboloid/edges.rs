@@ -121,7 +121,7 @@ fn the_largest_edge_is_the_inverse_of_its_error() {
     for texels in [1e-3, 0.25, 0.5, 1.0, 3.0, 20.0] {
         let angle = map.largest_edge(texels);
         assert!((map.edge_error(angle) / texels - 1.0).abs() <= 1e-12, "{texels}");
-        // DESIGN: α = 2 arccos(1 − 2ε/N).
+        // α = 2 arccos(1 − 2ε/N).
         assert!((angle - 2.0 * (1.0 - texels / 512.0).acos()).abs() <= 1e-9, "{texels}");
     }
     assert!((map.largest_edge(1e9) - FRAC_PI_2).abs() <= 1e-15);
