@@ -2,6 +2,7 @@
 
 use crate::convex::Polyhedron;
 use crate::fit::{Empty, Outcome};
+use crate::focus::cone::NoCone;
 use crate::focus::surrounded::Surrounded;
 use crate::focus::{Focus, VIEW_IDS, clip_all};
 use crate::input::scene::Region;
@@ -11,7 +12,7 @@ use crate::math::bounds::{Interval, Rectangle, least, most};
 use crate::settings::fallback::WarpFallback;
 use crate::settings::{Settings, Warp};
 use crate::warp::homography::Homography;
-use crate::warp::rays::{NoRays, Rays};
+use crate::warp::rays::Rays;
 use crate::warp::rounding::{self, AWAY_FROM_LAMP, Rounding};
 use crate::warp::search::{self, Previous};
 use crate::warp::stable::Stable;
@@ -119,9 +120,9 @@ impl<'a> Fit<'a> {
             None => Rays::new(focus, body),
         };
         let rays = rays.map_err(|none| match none {
-            NoRays::Surrounded(surrounded) => NoMap::Surrounded(surrounded),
+            NoCone::Surrounded(surrounded) => NoMap::Surrounded(surrounded),
             // All receivers are where the light is.
-            NoRays::Nothing => NoMap::Empty(Empty::NoCasters),
+            NoCone::Nothing => NoMap::Empty(Empty::NoCasters),
         })?;
         let origin = settings.origin().of(focus.view(), focus.light());
         Ok(Self { focus, settings, rays, stable, fallback, origin })

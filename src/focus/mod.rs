@@ -1,15 +1,16 @@
 //! The focus body H: every point that must appear in the shadow map.
 
 use crate::convex::{Bits, PlaneId, Polyhedron};
+pub(crate) mod cone;
 mod cull;
 mod narrow;
 pub(crate) mod surrounded;
 
 pub use crate::convex::{ConvexBody, Face, Plane};
+use crate::focus::cone::leave_corner;
 use crate::input::light::{Light, LightPlanes};
 use crate::input::scene::{Bounds, Boxes, DAabb, Region, Scene};
 use crate::input::view::{FrustumPlanes, View};
-use crate::warp::rays::leave_corner;
 pub use cull::Culler;
 use glam::{DVec3, DVec4};
 

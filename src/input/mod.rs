@@ -4,8 +4,6 @@
 //! they are made from and answer with, and what an [`InputError`](crate::InputError) says.
 
 pub(crate) mod clip_space;
-mod decode;
-mod frustum;
 pub(crate) mod light;
 pub(crate) mod numbers;
 pub(crate) mod scene;

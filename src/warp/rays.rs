@@ -1,11 +1,10 @@
 //! Rays as a plane of their own.
 
-use crate::convex::{Plane, PlaneId, Polyhedron};
+use crate::convex::{Plane, Polyhedron};
 use crate::focus::Focus;
-use crate::focus::surrounded::Surrounded;
+use crate::focus::cone::{NoCone, leave_corner};
 use crate::input::light::Light;
 use crate::input::view::View;
-use crate::math::axis::widest_margin;
 use crate::math::frame;
 use glam::{DVec2, DVec3};
 
@@ -40,19 +39,10 @@ pub(crate) struct Rays {
     pub(crate) least_w: f64,
 }
 
-/// Why there is no chart.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum NoRays {
-    /// All that is visible is where the light is, or nearer to it than anything casts.
-    Nothing,
-    /// No frustum holds what is visible.
-    Surrounded(Surrounded),
-}
-
 impl Rays {
     /// The chart around what is visible, R, from which what is nearer to a light in a corner of it than its near distance is
     /// cut off.
-    pub(crate) fn new(focus: &Focus<'_>, visible: &mut Polyhedron) -> Result<Self, NoRays> {
+    pub(crate) fn new(focus: &Focus<'_>, visible: &mut Polyhedron) -> Result<Self, NoCone> {
         let view = focus.view();
         let (axis, margin) = match focus.light().position() {
             None => (-focus.light().homogeneous().truncate(), 1.0),
@@ -81,10 +71,6 @@ impl Rays {
             least_w: light.near() * margin,
         }
     }
-
-    /// The least cosine of half the opening of a frustum, that of [`Surrounded::MAX_HALF_ANGLE`]. A light nearer to what is
-    /// visible than that stands among it, as far as a single map is concerned.
-    pub(crate) const MIN_MARGIN: f64 = 1.0 / 512.0;
 
     /// The ray through a point, and w there.
     pub(crate) fn through(&self, point: DVec3) -> (DVec2, f64) {
@@ -127,61 +113,6 @@ impl Rays {
         self.u_axis * across.x + self.v_axis * across.y + self.axis * w
     }
 }
-
-/// The axis of the narrowest cone from a light at a position around a body, and the least cosine to it.
-///
-/// A corner of the body where the light is has no direction, and needs none: the edges that end there have theirs at their other
-/// ends. What is around it, up to the light's near distance, is cut off, so that w is positive on what is left. `each` is told
-/// the plane.
-pub(crate) fn leave_corner(
-    position: DVec3,
-    near: f64,
-    body: &mut Polyhedron,
-    mut each: impl FnMut(Plane, PlaneId),
-) -> Result<(DVec3, f64), NoRays> {
-    const NAME: PlaneId = Polyhedron::MAX_PLANES as PlaneId - 1;
-    let surrounded = |cosine| NoRays::Surrounded(Surrounded::by(cosine));
-    let mut directions = [DVec3::ZERO; Polyhedron::MAX_VERTICES];
-    let (mut len, mut extent, mut in_corner) = (0, position.abs(), false);
-    for point in body.positions() {
-        extent = extent.max(point.abs());
-        match direction_between(position, point) {
-            Some(direction) => (directions[len], len) = (direction, len + 1),
-            None => in_corner = true,
-        }
-    }
-    if len == 0 {
-        return Err(NoRays::Nothing);
-    }
-    let (axis, margin) = widest_margin(&directions[..len]).ok_or(surrounded(0.0))?;
-    if margin < Rays::MIN_MARGIN {
-        return Err(surrounded(margin));
-    }
-    if in_corner {
-        let beyond = (Plane::through(axis, position) - Plane::ONE * (near * margin)).loosened(extent);
-        body.clip(&beyond, NAME);
-        each(beyond, NAME);
-        if body.is_empty() {
-            return Err(NoRays::Nothing);
-        }
-        // The near distance may be lost in the rounding of the position.
-        if body.positions().any(|point| direction_between(position, point).is_none()) {
-            return Err(surrounded(margin));
-        }
-    }
-    Ok((axis, margin))
-}
-
-/// The unit direction from a light to a visible point. A light a few roundings away from what is visible is on its boundary,
-/// and it has none.
-pub(crate) fn direction_between(position: DVec3, point: DVec3) -> Option<DVec3> {
-    let arm = point - position;
-    let distance = arm.length();
-    (distance > ROUNDINGS * (point.abs() + position.abs()).max_element()).then(|| arm / distance)
-}
-
-/// What a vertex may be away from the exact one where its planes meet squarely: their slack, and its roundings.
-const ROUNDINGS: f64 = 2.0 * Plane::SLACK;
 
 /// A linear function of `(U, V, 1)` on the chart.
 #[derive(Clone, Copy, Debug, PartialEq)]

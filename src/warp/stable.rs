@@ -13,12 +13,13 @@
 use crate::convex::Polyhedron;
 use crate::error::MIN_DISTANCE;
 use crate::focus::Focus;
+use crate::focus::cone::{MIN_MARGIN, direction_between};
 use crate::input::light::Light;
 use crate::math::bounds::{Interval, Rectangle, most};
 use crate::math::frame;
 use crate::settings::Settings;
 use crate::settings::fallback::WarpFallback;
-use crate::warp::rays::{Rays, direction_between};
+use crate::warp::rays::Rays;
 use glam::{DVec2, DVec3};
 
 /// What a stable map has for its window: nothing here changes as the camera moves and turns, but for whole texels.
@@ -115,9 +116,9 @@ impl Stable {
         let margin = tangents.extend(1.0).length().recip();
         let [.., axis] = axes;
         let is_in_front = |point: DVec3| {
-            direction_between(position, point).is_some_and(|direction| axis.dot(direction) >= Rays::MIN_MARGIN)
+            direction_between(position, point).is_some_and(|direction| axis.dot(direction) >= MIN_MARGIN)
         };
-        if margin < Rays::MIN_MARGIN || !visible.all(is_in_front) {
+        if margin < MIN_MARGIN || !visible.all(is_in_front) {
             return Err(WarpFallback::NoRegion);
         }
         Ok(Self { margin, ..Self::with_room(axes, tangents, 0.0, settings) })

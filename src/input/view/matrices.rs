@@ -3,9 +3,9 @@
 use super::{Axes, Lens, View};
 use crate::error::{InputError, InputErrorKind, check};
 use crate::input::clip_space::ClipSpace;
-use crate::input::decode::{self, EyeAxes, Frame};
-use crate::input::frustum::{self, Rows};
 use crate::input::numbers::IntoMatrix;
+use crate::input::view::decode::{self, EyeAxes, Frame};
+use crate::input::view::frustum::{self, Rows};
 use crate::math::bounds::most;
 use glam::DMat4;
 

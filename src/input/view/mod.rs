@@ -3,13 +3,15 @@
 use crate::convex::{Plane, matrix_from_rows};
 use crate::error::{Hint, InputError, InputErrorKind, MIN_DISTANCE, check};
 use crate::input::clip_space::DepthRange;
-use crate::input::frustum::steps;
 use crate::input::numbers::vector;
+use crate::input::view::frustum::steps;
 use crate::math::angle;
 use crate::math::bounds::{Interval, least, most};
 use glam::{DMat4, DVec2, DVec3};
 
 mod ball;
+mod decode;
+mod frustum;
 mod matrices;
 mod planes;
 #[cfg(feature = "serde")]

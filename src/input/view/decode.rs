@@ -2,8 +2,8 @@
 
 use crate::error::{InputError, InputErrorKind, check};
 use crate::input::clip_space::{ClipSpace, YAxis};
-use crate::input::frustum::{meet, rounding, rows};
 use crate::input::view::Lens;
+use crate::input::view::frustum::{meet, rounding, rows};
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
 /// Refuses a matrix with an entry that is NaN or infinite.
