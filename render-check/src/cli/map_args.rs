@@ -1,4 +1,4 @@
-//! The maps on the command line.
+//! Options for shadow maps.
 
 use clap::ValueEnum;
 use clap::builder::RangedU64ValueParser;
@@ -10,59 +10,63 @@ use crate::maps::{ClipConvention, Slicing, SplitArg, Technique};
 use crate::run::{Cutting, Options};
 use crate::trace::Faces;
 
-/// How maps are fitted, drawn and read.
+/// How maps are fitted, drawn and filtered.
 #[derive(Clone, Debug, clap::Args)]
 pub struct MapArgs {
-    /// A way to spread the texels; may be given several times [default: uniform, psm, light-space, best]
+    /// A warp, or another parameterization of the map; may be given several times [default: uniform, psm,
+    /// light-space, best]
     #[arg(long = "technique", value_name = "TECHNIQUE", value_enum)]
     pub techniques: Vec<Technique>,
 
-    /// Texels along each side of a map; may be given several times [default: 1024]
+    /// Map resolution: texels per side; may be given several times [default: 1024]
     #[arg(long = "size", value_name = "TEXELS", value_parser = RangedU64ValueParser::<u32>::new().range(16..=16384))]
     pub sizes: Vec<u32>,
 
-    /// Cut the view into so many slices in depth, each with a map of its own; may be given several times. Of stable maps
-    /// between the camera's planes, of others between the depths of what may be seen
+    /// Number of cascades, one map each; may be given several times. Stable maps split the range between the
+    /// camera's near and far planes, others the depth range of the receivers
     #[arg(long, value_name = "COUNT", value_parser = RangedU64ValueParser::<u32>::new().range(1..=Cascades::MAX as u64))]
     pub slices: Vec<u32>,
 
-    /// How depths are shared out among slices: uniform, log, or blended:PART with the logarithmic part
+    /// Split scheme of the cascades: uniform, log, or blended:PART, where PART is the weight of the logarithmic
+    /// splits, 0 to 1
     #[arg(long, value_name = "SPLIT", default_value_t, requires = "slices")]
     pub split: SplitArg,
 
-    /// Bits of depth
+    /// Depth format
     #[arg(long, value_enum, default_value_t = FormatArg::Unorm24)]
     pub format: FormatArg,
 
-    /// Which sides of triangles are drawn into the map, as the light sees them; second draws the far sides of solids and both
-    /// sides of sheets, layers the first two surfaces, read halfway between them; neither is given a bias
+    /// Which faces are drawn into the map, as seen from the light; second draws the back faces of solids and both
+    /// faces of open sheets (second-depth mapping), layers the first two surfaces and tests against the midpoint;
+    /// both do without a bias
     #[arg(long, value_enum, default_value_t = Faces::All)]
     pub faces: Faces,
 
-    /// What is drawn into the map for a point of a cloud
+    /// How points of a cloud are drawn into the map
     #[arg(long, value_enum, default_value_t = Points::Discs)]
     pub points: Points,
 
-    /// How the map is read: nearest, hardware (2 x 2, blended), pcfN for the mean over N x N texels, or virtualN for the same
-    /// with virtual samples, which need no bias on planes
+    /// The filter: nearest, hardware (2 x 2 bilinear PCF), pcfN (PCF over N x N texels), or virtualN (N x N virtual
+    /// samples, which compare with the receiver's plane and need no bias on planes)
     #[arg(long, value_name = "FILTER", default_value_t = Filter::Nearest)]
     pub filter: Filter,
 
-    /// How casters are cut before they are drawn into paraboloids, which bend lines
+    /// How casters are tessellated for paraboloid maps, which bend straight edges
     #[arg(long, value_enum, default_value_t = Cutting::Bound)]
     pub cut: Cutting,
 
-    /// Whose clip space the matrix is for; what another API's driver does with it is imitated
+    /// The clip space of the matrix; for APIs other than wgpu their viewport transform is emulated
     #[arg(long, value_enum, default_value_t = ClipConvention::Wgpu)]
     pub clip: ClipConvention,
 
-    /// What is added to depth: steps of the format, and times the slope [default: what the filter needs]
+    /// Depth bias: constant in steps of the depth format, and slope scale [default: the smallest that the filter
+    /// needs against acne]
     #[arg(long, value_name = "STEPS,SLOPE", value_parser = parse_bias, allow_hyphen_values = true)]
     pub bias: Option<Bias>,
 }
 
 impl MapArgs {
-    /// The options of every map that is asked for, each drawn so many times.
+    /// One set of options for each map that the arguments ask for, with this number of frames.
     #[must_use]
     pub fn options(&self, frames: u32) -> Vec<Options> {
         let techniques = Technique::or_compared(&self.techniques);
@@ -91,7 +95,7 @@ impl MapArgs {
     }
 }
 
-/// A depth format, as a word.
+/// A depth format, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum FormatArg {
     /// 16 bits, fixed point

@@ -1,4 +1,4 @@
-//! What commands have in common on the command line: arguments, help, and how each begins.
+//! Arguments, help texts and opening steps that the commands share.
 
 mod help;
 mod map_args;

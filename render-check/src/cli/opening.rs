@@ -1,4 +1,4 @@
-//! What every command begins with: a scene, loaded, and a camera before it.
+//! The opening steps of a command: load the scene, place the camera, choose the lights.
 
 use std::path::{Path, PathBuf};
 
@@ -13,14 +13,14 @@ use crate::scene::{self, Camera, LightSpec, LoadedScene, Mesh};
 use crate::stage::{choose_camera, choose_view, least_lamp_near};
 use crate::trace::Tracer;
 
-/// Where the sun stands in a scene without lights.
+/// The light of a scene without lights.
 const DEFAULT_SUN: LightSpec = LightSpec::Sun { direction_to_light: DVec3::new(0.5, 1.0, 0.35) };
 
-/// Loads the scene that the arguments name, and says what it is.
+/// Loads the scene that the arguments name, and prints its size.
 ///
 /// # Errors
 ///
-/// When it cannot be used.
+/// When the scene cannot be loaded.
 pub fn open(args: &ViewArgs) -> Result<LoadedScene> {
     let scene = {
         let _spinner = spinner("loading the scene");
@@ -34,32 +34,32 @@ pub fn open(args: &ViewArgs) -> Result<LoadedScene> {
     Ok(scene)
 }
 
-/// The directory for what is written, made where it is missing.
+/// The output directory, created where it is missing.
 ///
 /// # Errors
 ///
-/// When it cannot be made.
+/// When it cannot be created.
 pub fn output_directory(args: &ViewArgs, scene: &LoadedScene) -> Result<PathBuf> {
     let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
     make_directory(&out)?;
     Ok(out)
 }
 
-/// Sorts the triangles, so that rays find them fast.
+/// Builds the ray tracer's bounding-volume tree.
 ///
 /// # Errors
 ///
-/// When there are none.
+/// When there are no triangles.
 pub fn sort(mesh: &Mesh) -> Result<Tracer<'_>> {
     let _spinner = spinner("sorting the triangles");
     Tracer::new(mesh)
 }
 
-/// The camera that the arguments ask for and its view; says what it is.
+/// The camera that the arguments ask for, and its view; prints both.
 ///
 /// # Errors
 ///
-/// When it makes no sense or shows nothing.
+/// When the camera is invalid or nothing is in view.
 pub fn place_camera(args: &ViewArgs, scene: &LoadedScene, tracer: &Tracer<'_>) -> Result<(Camera, View)> {
     let camera = choose_camera(&args.camera(), args.aspect(), scene)?;
     let (view, warning) = choose_view(&camera, args.aspect(), tracer)?;
@@ -77,7 +77,8 @@ pub fn place_camera(args: &ViewArgs, scene: &LoadedScene, tracer: &Tracer<'_>) -
     Ok((camera, view))
 }
 
-/// The lights that the arguments ask for; else those of the scene's own that can be used; else a sun. Says which cannot.
+/// The lights that the arguments ask for; else the scene's own; else a sun. Prints which of the scene's lights are
+/// invalid.
 #[must_use]
 pub fn choose_lights(args: &ViewArgs, scene: &LoadedScene) -> Vec<LightSpec> {
     if !args.lights.is_empty() {

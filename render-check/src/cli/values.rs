@@ -1,4 +1,4 @@
-//! How numbers are read from the command line.
+//! Parsers for numbers on the command line.
 
 use crate::gpu::Bias;
 

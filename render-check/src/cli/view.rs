@@ -1,4 +1,4 @@
-//! The scene, its lights and the camera before it, on the command line.
+//! Options for scene, lights and camera.
 
 use std::path::PathBuf;
 
@@ -9,22 +9,22 @@ use super::values::{parse_distance, parse_field_of_view, parse_finite_distance};
 use crate::scene::{LightSpec, parse_vector};
 use crate::stage::CameraRequest;
 
-/// A camera before a scene, and its lights.
+/// Scene, lights and camera.
 #[derive(Clone, Debug, clap::Args)]
 pub struct ViewArgs {
-    /// A binary glTF file, or the name of a built-in scene, see below
+    /// A binary glTF file, or the name of a built-in scene (see below)
     #[arg(value_name = "SCENE", default_value = "chess-board")]
     pub scene: PathBuf,
 
-    /// A light: sun:…, point:… or spot:…, spelled as below; may be given several times
+    /// A light: sun:…, point:… or spot:… (see below); may be given several times
     #[arg(long = "light", value_name = "LIGHT")]
     pub lights: Vec<LightSpec>,
 
-    /// Where the camera is
+    /// Position of the camera
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
     pub eye: Option<DVec3>,
 
-    /// The point the camera looks at; the middle of the scene without it
+    /// The point the camera looks at [default: the middle of the scene]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true, requires = "eye")]
     pub target: Option<DVec3>,
 
@@ -32,16 +32,18 @@ pub struct ViewArgs {
     #[arg(long, value_name = "DEGREES", value_parser = parse_field_of_view)]
     pub fov: Option<f64>,
 
-    /// The camera's near plane, in world units [default: the scene's, else close to what is in view]
+    /// The camera's near plane, in world units [default: the scene's, else half the depth of the nearest surface in
+    /// view]
     #[arg(long, value_name = "DISTANCE", value_parser = parse_finite_distance)]
     pub near: Option<f64>,
 
-    /// The camera's far plane, in world units or inf [default: the scene's, else just behind the scene]
+    /// The camera's far plane, in world units or inf [default: the scene's, else just beyond the scene]
     #[arg(long, value_name = "DISTANCE", value_parser = parse_distance)]
     pub far: Option<f64>,
 
-    /// The distance from a lamp at which its shadow map begins, in world units: inside any lampshade, but the smaller it
-    /// is, the coarser is depth far from the lamp [default: half of the way to the nearest surface, and at least a thousandth of the scene's diagonal]
+    /// Near plane of point and spot lights, in world units; it must be nearer than any caster, but the smaller it
+    /// is, the coarser is depth far from the light [default: half the distance to the nearest surface, and at least
+    /// a thousandth of the scene's diagonal]
     #[arg(long, value_name = "DISTANCE", value_parser = parse_finite_distance)]
     pub lamp_near: Option<f64>,
 
@@ -53,7 +55,7 @@ pub struct ViewArgs {
     #[arg(long, value_name = "PIXELS", default_value_t = 600, value_parser = RangedU64ValueParser::<u32>::new().range(16..=8192))]
     pub height: u32,
 
-    /// The directory for what is written, made where it is missing [default: out/SCENE]
+    /// Output directory, created where it is missing [default: out/SCENE]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -65,7 +67,7 @@ impl ViewArgs {
         f64::from(self.width) / f64::from(self.height)
     }
 
-    /// The camera that is asked for.
+    /// The camera options.
     #[must_use]
     pub fn camera(&self) -> CameraRequest {
         let Self { eye, target, fov, near, far, .. } = *self;

@@ -1,4 +1,4 @@
-//! The commands, a module each with its arguments, and the command line as a whole.
+//! The commands, one module each with its options, and the command line as a whole.
 
 pub mod ablation;
 pub mod check;
@@ -19,70 +19,70 @@ use walk::WalkArgs;
 
 use crate::cli::{LIGHTS, scenes};
 
-/// Command lines, and what each is for.
+/// Example command lines.
 const EXAMPLES: &str = "\
 Examples:
   render-check
-      the built-in chess board under a sun, a lamp and a spot: needs no file at all
+      the built-in chess board under a sun, a point light and a spot: needs no file
   render-check street --technique uniform --technique psm --size 512 --size 2048
-      another built-in scene, two techniques, two sizes of map
+      another built-in scene, two techniques, two map sizes
   render-check sponza.glb --eye -11.5,2,-0.3 --target 8,4.5,0 --fov 75 --light sun:0.15,1,0.25
-      a file, a camera and a sun of your own
+      a file, with your own camera and sun
   render-check room.glb --light point:0,2.4,0/12 --light spot:3,3,0/0,0,0/50 --filter pcf3
-      a lamp that reaches 12 units and a spot with a cone of 50 degrees, read with 3 x 3 texels
+      a point light with a range of 12 units and a spot with a cone of 50 degrees, filtered over 3 x 3 texels
   render-check room --light point:0,1.5,-2.5 --technique cube --technique cube-psm
-      a lamp among what it lights: a map for each face of the cube around it
+      a point light inside the scene: a map for each cube face
   render-check draw city.glb --near 1 --far inf --size 2048
       only the fit and its pictures, by ray casting: needs no graphics driver
   render-check street --slices 1 --slices 4 --technique uniform --technique best
-      a map for each slice of the view
+      one cascade, then four
   render-check walk street --steps 48
-      a camera that walks, and the pixels that flicker
+      moves the camera and counts the pixels that flicker
   render-check sweep
-      the hard cases: lights through the camera's plane, every clip space, scenes of any size";
+      the hard cases: lights crossing the camera's plane, every clip space, scenes of any size";
 
-/// Draws scenes with fitted shadow maps on a graphics card and compares every pixel with ray-traced truth.
+/// Draws scenes with fitted shadow maps on a GPU and compares every pixel with ray-traced truth.
 ///
 /// Without a command it checks one scene: every light, with each technique and size of map.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "render-check", version, max_term_width = 110, args_conflicts_with_subcommands = true)]
 #[command(after_help = format!("{EXAMPLES}\n\n{}\n\n{LIGHTS}\n\n{}", scenes(), check::HELP))]
 pub struct Args {
-    /// What to do, if not to check a scene.
+    /// The command; none checks a scene.
     #[command(subcommand)]
     pub command: Option<Command>,
 
-    /// What to check.
+    /// Options of the check.
     #[command(flatten)]
     pub check: CheckArgs,
 }
 
-/// What there is to do besides checking a scene.
+/// The commands besides the check.
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
-    /// Fits and draws by ray casting, without a graphics card: H, what the light sees, what the maps hold
+    /// Fits and draws by ray casting, without a GPU: the caster volume H, the light's view, the maps' depths
     #[command(after_help = format!("{}\n\n{LIGHTS}\n\n{}", scenes(), draw::HELP))]
     Draw(DrawArgs),
-    /// Walks the camera and counts the pixels that flicker
+    /// Moves the camera and counts the pixels that flicker
     #[command(after_help = format!("{}\n\n{LIGHTS}\n\n{}", scenes(), walk::HELP))]
     Walk(WalkArgs),
-    /// Checks the hard cases, all of them
+    /// Checks all hard cases
     #[command(after_help = sweep::HELP)]
     Sweep(SweepArgs),
-    /// Plans all lights, the least that is enough for each, draws what the plan says and checks it
-    #[command(after_help = format!("{}\n\n{LIGHTS}\n\n{}", scenes(), crate::cmd::plan::HELP))]
+    /// Plans the cheapest sufficient technique for each light, draws the plan and checks it
+    #[command(after_help = format!("{}\n\n{LIGHTS}\n\n{}", scenes(), plan::HELP))]
     Plan(PlanArgs),
-    /// Draws what a plan leaves out or asks for with it and without it, and holds both against the truth
-    #[command(after_help = crate::cmd::ablation::HELP)]
+    /// Draws with and without each effect that a plan uses or omits, and compares both with the truth
+    #[command(after_help = ablation::HELP)]
     Ablation(AblationArgs),
 }
 
 impl Args {
-    /// Does what they ask for.
+    /// Runs the command.
     ///
     /// # Errors
     ///
-    /// Those of the command.
+    /// As the command reports them.
     pub fn run(&self) -> Result<()> {
         match &self.command {
             None => check::check(&self.check),

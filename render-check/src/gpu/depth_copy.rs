@@ -1,4 +1,4 @@
-//! The numbers in a depth buffer.
+//! Depth buffers read back to main memory.
 
 use anyhow::Result;
 

@@ -1,4 +1,4 @@
-//! The nearest and the farthest of what a camera sees, from its depth buffer.
+//! The depth range of the visible surfaces, from the camera's depth buffer.
 
 use anyhow::Result;
 use shadowfit::{View, input::DepthRange};
@@ -11,18 +11,19 @@ use super::{read_back, shaders};
 /// Pixels across and down that one workgroup of the shader reads.
 const TILE: u32 = 16;
 
-/// How much nearer and farther than the depths read back a narrowed view reaches, relative to them. Depths of f32 are off
-/// by a millionth or so; more, where a surface is seen at a grazing angle, by the grid of 256ths of a pixel that its
-/// corners are moved to. A warp hardly notices a thousandth.
+/// Relative margin of a narrowed view around the depths read back. f32 depths are off by about a millionth, and by
+/// more at grazing angles, as the rasteriser snaps vertices to a grid of 1/256 pixel. A thousandth hardly changes a
+/// warp.
 const MARGIN: f64 = 1.0 / 1024.0;
 
 impl Surfaces {
-    /// The view, narrowed to the depths of what it shows (Stamminger & Drettakis 2002, §6): reduced on the card, two
-    /// numbers read back. Itself, where it shows nothing. `view` is the one that was drawn.
+    /// The view, narrowed to the depth range of its visible surfaces (Stamminger & Drettakis 2002, §6): the GPU
+    /// reduces the depth buffer to two numbers, which are read back. Unchanged where no surface is visible. `view`
+    /// is the one that was drawn.
     ///
     /// # Errors
     ///
-    /// When the card refuses.
+    /// When the GPU reports an error.
     pub fn narrowed(&self, gpu: &Gpu, view: &View) -> Result<View> {
         let ends = gpu.guarded("the depths in view", || self.depth_ends(gpu))?;
         let Some([least, greatest]) = ends else { return Ok(*view) };
@@ -33,7 +34,7 @@ impl Surfaces {
         Ok(view.narrowed(near, far)?)
     }
 
-    /// The least and the greatest number in the depth buffer; `None` where there is no surface.
+    /// The least and the greatest value in the depth buffer; `None` where there is no surface.
     fn depth_ends(&self, gpu: &Gpu) -> Result<Option<[f32; 2]>> {
         let module = &gpu.shader(shaders::DEPTH_ENDS);
         let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {

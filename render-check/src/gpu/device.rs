@@ -1,4 +1,4 @@
-//! The adapter, and what everything on it needs.
+//! The graphics adapter, and helpers to create resources on it.
 
 use std::collections::HashMap;
 use std::sync::Mutex;
@@ -10,11 +10,11 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
 
 use super::pipeline_key::PipelineKey;
 
-/// Said where there is no adapter.
+/// The error without an adapter.
 const NO_ADAPTER: &str = "no graphics adapter was found: install a Vulkan driver (on Debian, `apt-get install \
                           mesa-vulkan-drivers` has one in software), or use `render-check draw`, which needs none";
 
-/// A graphics card, or a driver that does the same in software.
+/// A GPU, or a software driver.
 pub struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
@@ -22,7 +22,7 @@ pub struct Gpu {
     is_software: bool,
     /// The pipelines that were built so far.
     pub(super) pipelines: Mutex<HashMap<PipelineKey, wgpu::RenderPipeline>>,
-    /// Nanoseconds in one tick of a timestamp, where there are timestamps.
+    /// Nanoseconds per tick of a timestamp, where timestamps are supported.
     pub(super) tick: Option<f64>,
 }
 
@@ -31,7 +31,7 @@ impl Gpu {
     ///
     /// # Errors
     ///
-    /// When there is none, with what to do about it.
+    /// When there is none, with a hint.
     pub fn new() -> Result<Self> {
         block_on(Self::open())
     }
@@ -52,7 +52,7 @@ impl Gpu {
         let description = wgpu::DeviceDescriptor {
             label: None,
             required_features: timestamps,
-            // All that the adapter has: maps of 8192² texels and scenes of a million triangles are asked for.
+            // All of the adapter's limits: maps of 8192² texels and scenes of a million triangles need them.
             required_limits: adapter.limits(),
             ..Default::default()
         };
@@ -66,25 +66,25 @@ impl Gpu {
         Ok(Self { device, queue, name, is_software, pipelines: Mutex::default(), tick })
     }
 
-    /// What the adapter calls itself, and the API it is reached through.
+    /// The adapter's name and graphics API.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Whether it is a driver that draws on the processor, whose times then are the processor's.
+    /// Whether it is a software driver: then times are CPU times.
     #[must_use]
     pub fn is_software(&self) -> bool {
         self.is_software
     }
 
-    /// The largest side of a texture.
+    /// The largest texture size.
     #[must_use]
     pub fn largest_texture(&self) -> u32 {
         self.device.limits().max_texture_dimension_2d
     }
 
-    /// Does work whose mistakes come back as errors: on its own, the device reports them by a panic.
+    /// Runs `work` and returns the device's errors, which would panic otherwise.
     pub(super) fn guarded<T>(&self, what: &str, work: impl FnOnce() -> Result<T>) -> Result<T> {
         let scopes = [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::OutOfMemory, wgpu::ErrorFilter::Internal]
             .map(|filter| self.device.push_error_scope(filter));
@@ -103,7 +103,7 @@ impl Gpu {
         self.numbers(matrices.iter().flat_map(Mat4::to_cols_array), wgpu::BufferUsages::UNIFORM)
     }
 
-    /// A buffer for an array of any length in a shader.
+    /// A storage buffer.
     pub(super) fn storage(&self, numbers: impl IntoIterator<Item = f32>) -> wgpu::Buffer {
         self.numbers(numbers, wgpu::BufferUsages::STORAGE)
     }
@@ -119,14 +119,14 @@ impl Gpu {
         self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source })
     }
 
-    /// A texture that passes can draw to and read from, with its view.
+    /// A texture to render to and sample, with its view.
     pub(super) fn target(&self, size: [u32; 2], format: wgpu::TextureFormat) -> (wgpu::Texture, wgpu::TextureView) {
         let texture = self.layers(size, 1, format);
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         (texture, view)
     }
 
-    /// The same with layers, and without views.
+    /// The same as an array texture, without views.
     pub(super) fn layers(
         &self,
         [width, height]: [u32; 2],

@@ -1,4 +1,4 @@
-//! The triangles on the card.
+//! Triangles on the GPU.
 
 use std::ops::Range;
 
@@ -10,31 +10,30 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
 use super::device::Gpu;
 use crate::scene::{Disc, Mesh};
 
-/// The triangles of a mesh in f32, three vertices each, so that the number of a vertex tells its triangle.
+/// The triangles of a mesh in f32, unindexed, so that a vertex index tells the triangle.
 #[derive(Debug)]
 pub struct Geometry {
     pub(super) buffer: wgpu::Buffer,
-    /// The unit normal of each triangle's front, four floats each.
+    /// The unit normal of each triangle's front face, four floats each.
     pub(super) normals: wgpu::Buffer,
     objects: Vec<(Range<u32>, Solidity)>,
     vertex_count: u32,
-    /// The discs that the last triangles are of: centre, radius, normal, and a number for nothing, as a shader's memory
-    /// is laid out.
+    /// The discs that the last triangles belong to: centre, radius, normal, and one float of padding.
     pub(super) discs: wgpu::Buffer,
     first_disc_triangle: u32,
     origin: DVec3,
 }
 
 impl Geometry {
-    /// The floats of a vertex.
+    /// The vertex attributes.
     pub(super) const ATTRIBUTES: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![0 => Float32x3];
 
-    /// Uploads a mesh with its positions relative to `origin`, in world space. The difference is taken in f64, so that
-    /// near the origin nothing is lost far out in the world.
+    /// Uploads a mesh with positions relative to `origin`, in world space. The difference is taken in f64, so that
+    /// positions near `origin` keep their precision wherever it is in the world.
     ///
     /// # Errors
     ///
-    /// When the card cannot hold so many triangles.
+    /// When the GPU cannot hold so many triangles.
     pub fn upload(gpu: &Gpu, mesh: &Mesh, origin: DVec3) -> Result<Self> {
         let corners = mesh.triangles.iter().flatten().map(|&i| mesh.vertices[i as usize] - origin);
         let numbers: Vec<f32> = corners.flat_map(|corner| corner.as_vec3().to_array()).collect();
@@ -62,7 +61,7 @@ impl Geometry {
             let (centre, normal) = ((disc.centre - origin).as_vec3(), disc.normal.as_vec3());
             [centre.extend(disc.radius as f32).to_array(), normal.extend(0.0).to_array()]
         });
-        // A binding holds something, though there be no discs.
+        // A binding cannot be empty.
         let mut discs: Vec<[[f32; 4]; 2]> = discs.collect();
         discs.resize(discs.len().max(1), [[0.0; 4]; 2]);
         let contents = bytemuck::cast_slice(&discs);
@@ -75,7 +74,7 @@ impl Geometry {
         Ok(Self { buffer, normals, objects, vertex_count, discs, first_disc_triangle, origin })
     }
 
-    /// Ranges of triangles as those of the triangles that are no discs', and those of the discs whose the others are.
+    /// Splits ranges of triangles into those of ordinary triangles and those of the discs.
     pub(super) fn without_discs(&self, triangles: &[Range<u32>]) -> (Vec<Range<u32>>, Vec<Range<u32>>) {
         let first = self.first_disc_triangle;
         let plain = triangles.iter().map(|range| range.start.min(first)..range.end.min(first));
@@ -84,7 +83,7 @@ impl Geometry {
         (plain.filter(|range| !range.is_empty()).collect(), discs.filter(|range| !range.is_empty()).collect())
     }
 
-    /// What positions on the card are relative to, in world space.
+    /// The origin of positions on the GPU, in world space.
     #[must_use]
     pub fn origin(&self) -> DVec3 {
         self.origin
@@ -95,7 +94,7 @@ impl Geometry {
         0..self.vertex_count
     }
 
-    /// The pieces of a range of triangles that are of one object each, and what the object is.
+    /// Splits a range of triangles by object, with each object's solidity.
     pub(super) fn objects_in(&self, triangles: &Range<u32>) -> impl Iterator<Item = (Range<u32>, Solidity)> {
         let pieces = self.objects.iter().map(|(object, solidity)| {
             (object.start.max(triangles.start)..object.end.min(triangles.end), *solidity)

@@ -1,9 +1,8 @@
-//! The harness on the graphics card: what a renderer does with a fitted map, and no more. Any adapter will do, a
-//! software one too.
+//! A minimal renderer with shadow maps on the GPU. Any adapter will do, a software driver too.
 //!
 //! | step | what it makes |
 //! |---|---|
-//! | [`Geometry`] | the triangles on the card, in f32, about an origin |
+//! | [`Geometry`] | the triangles on the GPU, in f32, about an origin |
 //! | [`Surfaces`] | what a camera sees: the position and the triangle of every pixel |
 //! | [`ShadowMaps`] | the depths of the casters, through the matrix of each of a light's maps |
 //! | [`shadow_test`] | how much light reaches every pixel, as the shadow maps have it |

@@ -1,4 +1,4 @@
-//! One pass: draw calls into targets, and how long the card took for them.
+//! Render pipelines and passes, with their GPU times.
 
 use std::ops::Range;
 use std::sync::PoisonError;
@@ -11,12 +11,12 @@ use super::geometry::Geometry;
 use super::pipeline_key::PipelineKey;
 use super::read_back;
 
-/// Pipelines, in the few ways they differ here.
+/// A pipeline's parameters, as far as they differ here.
 pub(super) struct PipelineKind<'a> {
     pub(super) shader: &'a str,
     pub(super) constants: &'a [(&'a str, f64)],
     pub(super) takes_geometry: bool,
-    /// Whether there is a fragment shader; without one depth alone comes of a pass.
+    /// Whether there is a fragment shader; without one a pass writes depth alone.
     pub(super) has_fragments: bool,
     pub(super) primitive: wgpu::PrimitiveState,
     pub(super) depth: Option<wgpu::DepthStencilState>,
@@ -24,8 +24,8 @@ pub(super) struct PipelineKind<'a> {
 }
 
 impl PipelineKind<'_> {
-    /// The pipeline, made when it is first asked for. A driver in software compiles what is new while it draws, which would be
-    /// part of the pass's time in every frame.
+    /// The pipeline, cached after its first use. A software driver compiles new pipelines while it draws, which
+    /// would count as the pass's time in every frame.
     pub(super) fn build(&self, gpu: &Gpu) -> wgpu::RenderPipeline {
         let mut pipelines = gpu.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
         pipelines.entry(self.key()).or_insert_with(|| self.build_anew(gpu)).clone()
@@ -77,7 +77,7 @@ impl PipelineKind<'_> {
     }
 }
 
-/// A depth buffer that is written where the comparison passes.
+/// The state of a depth buffer that is written where the comparison passes.
 pub(super) fn depth_state(
     format: wgpu::TextureFormat,
     compare: wgpu::CompareFunction,
@@ -92,23 +92,24 @@ pub(super) fn depth_state(
     }
 }
 
-/// The vertices of the triangle that covers a target.
+/// The vertices of a full-screen triangle.
 pub(super) const FULL_SCREEN: Range<u32> = 0..3;
 
-/// What a pass draws, with what, and where to.
+/// The parameters of a pass.
 pub(super) struct Pass<'a> {
     pub(super) pipeline: &'a wgpu::RenderPipeline,
     pub(super) bindings: &'a wgpu::BindGroup,
     pub(super) colours: &'a [&'a wgpu::TextureView],
-    /// The depth buffer and what it holds before.
+    /// The depth buffer and how it is loaded.
     pub(super) depth: Option<(&'a wgpu::TextureView, wgpu::LoadOp<f32>)>,
-    /// The vertices to draw from; none for the triangle that covers the target.
+    /// The vertex buffer; none for a full-screen triangle.
     pub(super) geometry: Option<&'a Geometry>,
     pub(super) draws: &'a [Range<u32>],
 }
 
 impl Pass<'_> {
-    /// Runs the pass, colours cleared to zeros, and waits for it. The time is the card's own, where it has a clock.
+    /// Runs the pass with colours cleared to zero, and waits for it. Returns the GPU time, where timestamps are
+    /// supported.
     pub(super) fn run(&self, gpu: &Gpu) -> Result<Option<Duration>> {
         let clock = gpu.tick.map(|tick| (tick, Clock::new(gpu)));
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());

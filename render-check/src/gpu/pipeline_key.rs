@@ -1,10 +1,10 @@
-//! How pipelines that were built are found again.
+//! The key of the pipeline cache.
 
-/// All that a pipeline is made of, to know it by.
+/// All parameters of a pipeline.
 #[derive(PartialEq, Eq, Hash)]
 pub(super) struct PipelineKey {
     pub(super) shader: String,
-    /// The bits of the numbers.
+    /// With the bits of the values, as `f64` is not `Eq`.
     pub(super) constants: Vec<(String, u64)>,
     pub(super) takes_geometry: bool,
     pub(super) has_fragments: bool,

@@ -1,11 +1,11 @@
-//! From the card back to main memory.
+//! Buffers and textures read back to main memory.
 
 use anyhow::{Context, Result};
 use bytemuck::Pod;
 
 use super::device::Gpu;
 
-/// The bytes of a buffer that can be mapped, once all work so far is done.
+/// The bytes of a mappable buffer, once all submitted work is done.
 pub(super) fn bytes(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>> {
     buffer.map_async(wgpu::MapMode::Read, .., |_| {});
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).context("the graphics card stopped answering")?;

@@ -1,46 +1,46 @@
-//! The shaders, put together from small files and the crate's functions: what they share is there once.
+//! The shaders, concatenated from small files and the crate's WGSL functions.
 
 use shadowfit::wgsl;
 
-/// What the camera sees; vertices in, positions and triangles out.
+/// The camera pass: writes positions and triangle indices.
 pub(super) const SURFACES: &str = include_str!("shaders/surfaces.wgsl");
 
 /// Casters into a shadow map.
 pub(super) const SHADOW_MAP: &str = include_str!("shaders/shadow_map.wgsl");
 
-/// The same, but for what lies in the first layer.
+/// The second layer: fragments of the first layer are discarded.
 pub(super) fn second_layer() -> String {
     let own = include_str!("shaders/second_layer.wgsl");
     [wgsl::MAP, wgsl::FILTERS, wgsl::BETWEEN_LAYERS, SHADOW_MAP, own].concat()
 }
 
-/// Casters into a paraboloid map, by the crate's shader functions.
+/// Casters into a paraboloid map.
 pub(super) fn paraboloid_map() -> String {
     [wgsl::PARABOLOID, include_str!("shaders/paraboloid_map.wgsl")].concat()
 }
 
-/// The discs of points into a shadow map, as the crate's shader function places them.
+/// The discs of points into a shadow map.
 pub(super) fn splats() -> String {
     [wgsl::SPLAT, include_str!("shaders/splats.wgsl")].concat()
 }
 
-/// A depth buffer as plain numbers.
+/// Copies a depth buffer to a colour target.
 pub(super) const COPY_DEPTH: &str =
     concat!(include_str!("shaders/full_screen.wgsl"), include_str!("shaders/copy_depth.wgsl"));
 
-/// The ends of what is in a depth buffer.
+/// Reduces a depth buffer to its range.
 pub(super) const DEPTH_ENDS: &str = include_str!("shaders/depth_ends.wgsl");
 
-/// How maps lay out the world.
+/// The projection of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum LayoutText {
-    /// By a matrix.
+    /// A matrix.
     Frustum,
-    /// In half spaces. There are no virtual samples for it.
+    /// A paraboloid, which supports no virtual samples.
     Paraboloid,
 }
 
-/// The shadow test with each lookup.
+/// The shadow test with this filter.
 pub(super) fn nearest(layout: LayoutText) -> String {
     shadow_test(layout, include_str!("shaders/nearest.wgsl"))
 }
@@ -106,7 +106,7 @@ mod tests {
             let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
             let result = validator.validate(&module);
             assert!(result.is_ok(), "{name}: {}", result.unwrap_err().emit_to_string(source));
-            // One bare `textureSampleCompare` would need uniform control flow, which naga does not look for.
+            // `textureSampleCompare` needs uniform control flow, which naga does not check.
             assert!(!source.contains("textureSampleCompare("), "{name}");
         }
     }

@@ -1,4 +1,4 @@
-//! The shadow maps of a light: casters, drawn through the matrices that the crate gives, a layer of a texture each.
+//! The shadow maps of a light: casters drawn through the crate's matrices, one texture layer per map.
 
 use std::ops::Range;
 use std::time::Duration;
@@ -20,12 +20,12 @@ use super::{depth_copy, shaders};
 use crate::maps::{Layout, Split};
 use crate::trace::Faces;
 
-/// What the rasteriser adds to depth, away from the light.
+/// The rasteriser's depth bias, away from the light.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Bias {
-    /// In units of the format, see [`DepthFormat::bias_unit`].
+    /// Constant, in units of the format, see [`DepthFormat::bias_unit`].
     pub constant: i32,
-    /// Times the greater change of depth from texel to texel, across and down.
+    /// Slope scale: times the larger of the depth's derivatives along rows and columns.
     pub slope: f32,
 }
 
@@ -33,7 +33,7 @@ impl Bias {
     /// No bias.
     pub const NONE: Self = Self { constant: 0, slope: 0.0 };
 
-    /// What a map asks for, as a bias away from the light: the sign of its clip space is put on again where it is drawn.
+    /// A map's bias as a bias away from the light; the sign for its clip space is applied where it is drawn.
     #[must_use]
     pub const fn away(bias: &shadowfit::depth::DepthBias) -> Self {
         Self { constant: bias.constant.abs(), slope: bias.slope_scale.abs() }
@@ -46,15 +46,15 @@ pub struct MapPass {
     /// The depth buffer's format.
     #[serde(serialize_with = "format_name")]
     pub format: DepthFormat,
-    /// Which sides are drawn.
+    /// Which faces are drawn.
     pub faces: Faces,
-    /// What is added to depth.
+    /// The depth bias.
     pub bias: Bias,
-    /// What receivers are tested nearer to the light by, where the map's depth range is 1.
+    /// The receiver offset towards the light, relative to the map's depth range.
     pub receiver: f64,
-    /// And as a part, see [`ReceiverOffset::relative`].
+    /// Its relative part, see [`ReceiverOffset::relative`].
     pub relative: f64,
-    /// What is drawn for points. Splats and texels have no sides.
+    /// How points are drawn. Splats and texels have no faces.
     pub points: Points,
 }
 
@@ -65,40 +65,40 @@ fn format_name<S: serde::Serializer>(format: &DepthFormat, serializer: S) -> Res
 /// A map to draw.
 #[derive(Clone, Copy, Debug)]
 pub struct MapDraw<'a> {
-    /// Its matrix takes positions relative to what its settings say; the geometry must have been uploaded relative to
-    /// the same.
+    /// The map; the geometry must have been uploaded relative to the origin in its settings.
     pub map: &'a Layout,
-    /// The ranges of the geometry's triangles that belong in it.
+    /// The casters, as ranges of the geometry's triangles.
     pub casters: &'a [Range<u32>],
     /// How they are drawn.
     pub pass: MapPass,
 }
 
-/// The shadow maps of a light on the card, the layers of one texture.
+/// The shadow maps of a light on the GPU, the layers of one array texture.
 pub struct ShadowMaps {
-    /// All maps' layers.
+    /// The array texture's view.
     pub(super) view: wgpu::TextureView,
-    /// One by one.
+    /// The views of its layers.
     layers: Vec<wgpu::TextureView>,
-    /// What lies behind the first surfaces, of a light whose maps are tested between layers.
+    /// The second surfaces, for maps that are tested between layers.
     pub(super) behind: Option<LayerArray>,
-    /// The map in each layer, and what receivers are to be tested with.
+    /// The map of each layer, and its receiver offset.
     pub(super) maps: Vec<(Layout, ReceiverOffset)>,
     pub(super) format: DepthFormat,
     texture_format: wgpu::TextureFormat,
     /// `Split` of `shadow_test.wgsl`, row by row.
     pub(super) split: Vec<Vec4>,
-    /// How long the card took for all of them the last time that they were drawn, where it has a clock.
+    /// GPU time of all of them when last drawn, where timestamps are supported.
     pub time: Option<Duration>,
 }
 
 impl ShadowMaps {
-    /// Draws the map of each part of a split; `None` for a part that needs none.
+    /// Draws the map of each part of a split; `None` for a part without a map.
     ///
     /// # Errors
     ///
-    /// When there is nothing to draw, when the maps are not alike in kind, size, format and clip space, as layers of a
-    /// texture are, when points are to be splats in a paraboloid, or when the card refuses, as it does maps larger than it can hold.
+    /// When there is no map; when the maps differ in kind, size, format or clip space, as layers of a texture
+    /// cannot; when points are to be splats in a paraboloid; or when the GPU reports an error, as for maps larger
+    /// than it supports.
     pub fn draw(gpu: &Gpu, geometry: &Geometry, split: &Split, maps: &[Option<MapDraw<'_>>]) -> Result<Self> {
         ensure!(split.parts() == maps.len(), "a light in {} parts has {} maps", split.parts(), maps.len());
         let drawn: Vec<&MapDraw<'_>> = maps.iter().flatten().collect();
@@ -145,11 +145,11 @@ impl ShadowMaps {
         })
     }
 
-    /// Draws the same maps again into the same memory, as a renderer does frame after frame.
+    /// Draws the same maps again into the same memory, as a renderer does every frame.
     ///
     /// # Errors
     ///
-    /// When there are more or fewer maps than before, or the card refuses.
+    /// When the number of maps differs, or the GPU reports an error.
     pub fn draw_again(&mut self, gpu: &Gpu, geometry: &Geometry, maps: &[Option<MapDraw<'_>>]) -> Result<()> {
         gpu.guarded("the shadow map", || self.draw_layers(gpu, geometry, maps))
     }
@@ -172,12 +172,12 @@ impl ShadowMaps {
         Ok(())
     }
 
-    /// The depths of each map, of its first layer, as they are stored, row by row from the top of the map (y = 1 in wgpu's
-    /// clip space).
+    /// The stored depths of each map's first layer, row by row from the top of the map (y = 1 in wgpu's clip
+    /// space).
     ///
     /// # Errors
     ///
-    /// When the card refuses.
+    /// When the GPU reports an error.
     pub fn depths(&self, gpu: &Gpu) -> Result<Vec<Vec<f32>>> {
         let depths =
             |(layer, (map, _)): (_, &(Layout, _))| depth_copy::depths(gpu, layer, map.settings().map_size());
@@ -185,7 +185,7 @@ impl ShadowMaps {
     }
 }
 
-/// Which layer answers for which points, relative to an origin; −1 for a part without a map.
+/// The uniform that selects a point's layer, relative to an origin; −1 for a part without a map.
 fn split_rows(split: &Split, maps: &[Option<MapDraw<'_>>], origin: DVec3) -> Vec<Vec4> {
     let (light, ends) = ((split.position() - origin).as_vec3(), split.ends());
     let mut rows = vec![light.extend(if ends.is_some() { 1.0 } else { 0.0 }), split.depth_row(origin).as_vec4()];
@@ -222,7 +222,7 @@ impl LayerArray {
     }
 }
 
-/// Draws a map into a layer; where a first one is given, without what that holds. How long the card took.
+/// Draws a map into a layer; where a first layer is given, without its fragments. Returns the GPU time.
 fn draw_layer(
     gpu: &Gpu,
     geometry: &Geometry,
@@ -281,7 +281,7 @@ fn draw_layer(
             constants: &constants,
             takes_geometry: true,
             has_fragments: matches!(draw.map, Layout::Paraboloid(_)) || first_layer.is_some(),
-            // The meshes' fronts are counter-clockwise, and the crate's maps mirror nothing.
+            // Front faces of the meshes are counter-clockwise, and the crate's maps do not mirror.
             primitive: wgpu::PrimitiveState { front_face: wgpu::FrontFace::Ccw, cull_mode, ..Default::default() },
             depth: Some(depth.clone()),
             targets: &[],
@@ -310,15 +310,15 @@ fn draw_layer(
     Ok(time)
 }
 
-/// What the fragments of a paraboloid need besides its matrix: texture scale, clip scale and bias, and no more numbers.
+/// The uniforms of a paraboloid's fragments besides its matrix: texture scale, clip scale and bias.
 fn in_fragments(map: &Paraboloid, pass: &MapPass) -> Mat4 {
-    // As `DepthBias::in_shader` has it, of a bias that may be the command line's.
+    // As in `DepthBias::in_shader`, for a bias that may come from the command line.
     let constant = f64::from(pass.bias.constant) * *pass.format.bias_unit(1.0).end();
     let (scale, bias) = (map.clip_scale(), Vec2::new(constant as f32, pass.bias.slope));
     Mat4::from_cols(map.texture_scale(), scale.extend(bias.x).extend(bias.y), Vec4::ZERO, Vec4::ZERO)
 }
 
-/// The vertices to draw with each kind of culling; at least one batch, though it may be empty, so that the map is cleared.
+/// The vertices to draw with each kind of culling; at least one batch, perhaps empty, so that the map is cleared.
 fn batches(
     geometry: &Geometry,
     casters: &[Range<u32>],
@@ -338,8 +338,8 @@ fn batches(
     batches
 }
 
-/// What the driver of another API does with its clip space: OpenGL's brings depth from −1…1 to 0…1, and where y points
-/// down the rasteriser turns it round.
+/// The viewport transform of other APIs: OpenGL maps depth from −1…1 to 0…1, and where y points down the rasteriser
+/// flips it.
 fn raster_from_clip(clip: ClipSpace) -> Mat4 {
     let halves_depth = matches!(clip.depth, DepthRange::NegativeOneToOne | DepthRange::NegativeOneToOneReversed);
     let depth = if halves_depth {

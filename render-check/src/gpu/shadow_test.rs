@@ -20,22 +20,23 @@ use super::shadow_map::ShadowMaps;
 use super::surfaces::Surfaces;
 use crate::maps::Layout;
 
-/// How a shadow map is read.
+/// The filter of a shadow map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Filter {
-    /// The one texel that a point lies in.
+    /// The nearest texel.
     Nearest,
-    /// The four texels around it, compared and blended by the sampler.
+    /// 2 × 2 texels, compared and interpolated by the comparison sampler.
     Hardware2x2,
-    /// The mean over so many texels across and down, each compared.
+    /// The mean over N × N texels, each compared.
     Pcf(u32),
-    /// So many texels across and down, each compared with the depth of the surface's own plane at its middle; two are
-    /// blended, of more it is the mean.
+    /// N × N virtual samples: each texel is compared with the depth of the receiver's plane at its centre; 2 × 2
+    /// are interpolated, more are averaged.
     Virtual(u32),
 }
 
 impl Filter {
-    /// How far from a point the middles of the texels lie that are read for it, at most, across and down, in texels.
+    /// The reach of the filter: the largest distance of a texel centre it reads from the point, along each axis, in
+    /// texels.
     #[must_use]
     pub fn reach(self) -> f64 {
         match self {
@@ -46,7 +47,7 @@ impl Filter {
     }
 }
 
-/// The word that the command line takes.
+/// The command line's spelling.
 impl fmt::Display for Filter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -58,7 +59,7 @@ impl fmt::Display for Filter {
     }
 }
 
-/// The same word: `nearest`, `hardware`, or `pcfN` or `virtualN` for N × N texels.
+/// The same spelling: `nearest`, `hardware`, `pcfN` or `virtualN`.
 impl FromStr for Filter {
     type Err = String;
 
@@ -87,23 +88,23 @@ impl serde::Serialize for Filter {
     }
 }
 
-/// What came of a shadow test.
+/// The result of a shadow test.
 pub struct Shadows {
-    /// The share of light that reaches each pixel, row by row from the top: 0 in shadow, 1 in light or in the sky.
+    /// The lit fraction of each pixel, row by row from the top: 0 in shadow, 1 in light or in the sky.
     pub lit: Vec<f32>,
-    /// Where virtual samples decided, as the texels disagreed.
+    /// Pixels where texels disagreed and virtual samples decided.
     pub used_plane: Vec<bool>,
-    /// How long the card took, where it has a clock.
+    /// GPU time, where timestamps are supported.
     pub time: Option<Duration>,
 }
 
-/// Tests every pixel of a camera's image against the shadow maps of a light. All must have been drawn from the same geometry, or
-/// from geometries with the same origin.
+/// Tests every pixel of a camera's image against the shadow maps of a light. All must have been drawn from geometry
+/// with the same origin.
 ///
 /// # Errors
 ///
-/// When the card refuses, when virtual samples are asked for of paraboloids, or when maps to be tested between layers are
-/// read with a filter that cannot.
+/// When the GPU reports an error, for virtual samples of paraboloids, and for filters that cannot test between
+/// layers.
 pub fn shadow_test(gpu: &Gpu, surfaces: &Surfaces, shadow_maps: &ShadowMaps, filter: Filter) -> Result<Shadows> {
     gpu.guarded("the shadow test", || shadow_test_unguarded(gpu, surfaces, shadow_maps, filter))
 }
@@ -114,7 +115,7 @@ fn shadow_test_unguarded(
     shadow_maps: &ShadowMaps,
     filter: Filter,
 ) -> Result<Shadows> {
-    // The layers of a texture are alike in this.
+    // The layers of a texture agree in this.
     let reversed = shadow_maps.maps.iter().any(|(map, _)| map.settings().clip().depth.is_reversed());
     let layout = match shadow_maps.maps.first() {
         Some((Layout::Paraboloid(_), _)) => LayoutText::Paraboloid,
@@ -137,7 +138,7 @@ fn shadow_test_unguarded(
     };
     let taps = taps.map(|taps| ("taps", f64::from(taps)));
     let mut constants = vec![];
-    // The hardware's comparison is the sampler's own.
+    // Hardware filtering compares in the sampler.
     if filter != Filter::Hardware2x2 {
         constants.push(("reversed", f64::from(u8::from(reversed))));
     }
@@ -194,7 +195,7 @@ fn shadow_test_unguarded(
     Ok(Shadows { lit, used_plane, time })
 }
 
-/// What the shader knows of a layer.
+/// The uniforms of a layer.
 fn layer(map: &Layout, receiver: &ReceiverOffset, shadow_maps: &ShadowMaps, filter: Filter) -> Result<Vec<f32>> {
     let sampled = sampled_from_texture(map.settings().clip());
     Ok(match map {
@@ -205,16 +206,16 @@ fn layer(map: &Layout, receiver: &ReceiverOffset, shadow_maps: &ShadowMaps, filt
         }
         Layout::Paraboloid(map) => {
             let mut scale = map.texture_scale();
-            // The middle of the disc is the middle of the map, whichever row comes first.
+            // The centre of the disc is the centre of the map, whichever row comes first.
             scale.y *= sampled.y_axis.y;
             map.receiver_matrix_with(receiver).to_cols_array().into_iter().chain(scale.to_array()).collect()
         }
     })
 }
 
-/// From an API that counts texture rows from the bottom to wgpu, which counts them from the top: there the same row of
-/// the map is read at 1 − v. An image that such an API draws with y down is upside down in its memory, where the first
-/// row then is the top one, as in wgpu's.
+/// Converts texture coordinates of an API that counts rows from the bottom to wgpu, which counts them from the top:
+/// v becomes 1 − v. If such an API draws with y down, its image is upside down in memory, so that the first row is
+/// the top row as in wgpu.
 fn sampled_from_texture(clip: ClipSpace) -> Mat4 {
     match (clip.y, clip.texture_origin) {
         (YAxis::Up, TextureOrigin::BottomLeft) => {

@@ -1,4 +1,4 @@
-//! The points of clouds in a shadow map, as quads.
+//! Points of clouds drawn into a shadow map as quads.
 
 use std::ops::Range;
 use std::time::Duration;
@@ -10,21 +10,21 @@ use super::geometry::Geometry;
 use super::pass::{Pass, PipelineKind};
 use super::shaders;
 
-/// What is drawn into a map for a point of a cloud. The camera sees the hexagons of discs in each case.
+/// How a point of a cloud is drawn into a map. The camera always sees hexagons.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, clap::ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Points {
-    /// The hexagon of its disc, four triangles like any others
+    /// Its disc as a hexagon of four triangles
     #[default]
     Discs,
-    /// Its disc, cut from the rectangle that it just fits into, by the crate's shader function
+    /// Its disc as a splat: a bounding quad, with fragments outside the disc discarded
     Splats,
-    /// A single texel: full of holes where points are farther apart than texels
+    /// A single texel: leaves holes where points are farther apart than texels
     Texels,
 }
 
 impl Points {
-    /// Of a disc's radius: no disc worth drawing is a thousand texels large.
+    /// Relative to the radius: no useful disc is a thousand texels large.
     fn scale(self) -> f64 {
         match self {
             Self::Discs | Self::Splats => 1.0,
@@ -33,7 +33,7 @@ impl Points {
     }
 }
 
-/// A map that discs are to be drawn into, after the triangles.
+/// Draws discs into a map, after the triangles.
 pub(super) struct SplatPass<'a> {
     pub(super) points: Points,
     pub(super) size: u32,

@@ -1,4 +1,4 @@
-//! What a camera sees: the camera pass.
+//! The camera pass: visible surfaces.
 
 use std::time::Duration;
 
@@ -11,8 +11,8 @@ use super::geometry::Geometry;
 use super::pass::{Pass, PipelineKind, depth_state};
 use super::{read_back, shaders};
 
-/// The surface that each pixel of a camera's image shows: its position on the card, relative to the origin of the geometry
-/// that maps are drawn of, and which triangle it is, here.
+/// The visible surface of each pixel: positions are kept on the GPU, relative to the origin of the casters'
+/// geometry; triangle indices are read back.
 pub struct Surfaces {
     pub(super) size: [u32; 2],
     pub(super) positions: wgpu::TextureView,
@@ -24,25 +24,25 @@ pub struct Surfaces {
     pub(super) depths: wgpu::TextureView,
     /// The triangle of each pixel, row by row from the top; [`Surfaces::SKY`] where there is none.
     pub triangles: Vec<u32>,
-    /// How long the card took, where it has a clock.
+    /// GPU time, where timestamps are supported.
     pub time: Option<Duration>,
 }
 
 impl Surfaces {
-    /// The triangle of a pixel that shows nothing.
+    /// The triangle index of a pixel without a surface.
     pub const SKY: u32 = u32::MAX;
 
-    /// Draws all triangles as a camera sees them, width by height pixels.
+    /// Draws all triangles from a camera into an image of this size.
     ///
     /// # Errors
     ///
-    /// When the card refuses, as it does images larger than it can hold.
+    /// When the GPU reports an error, as for images larger than it supports.
     pub fn draw(gpu: &Gpu, geometry: &Geometry, view: &View, size: [u32; 2]) -> Result<Self> {
         Self::draw_about(gpu, geometry, view, size, geometry.origin())
     }
 
-    /// The same with the positions relative to another origin than the geometry's, rounded to f32 there: for maps that are
-    /// drawn of geometry about that one.
+    /// The same with positions relative to another origin, rounded to f32 there, for maps of geometry with that
+    /// origin.
     ///
     /// # Errors
     ///
@@ -52,7 +52,7 @@ impl Surfaces {
     }
 
     fn draw_unguarded(gpu: &Gpu, geometry: &Geometry, view: &View, size: [u32; 2], origin: DVec3) -> Result<Self> {
-        // Depth reversed in f32, which keeps far surfaces apart as well as near ones.
+        // Reversed depth in f32 resolves far surfaces as well as near ones.
         let depth_format = wgpu::TextureFormat::Depth32Float;
         let formats = [wgpu::TextureFormat::Rgba32Float, wgpu::TextureFormat::R32Uint];
         let pipeline = PipelineKind {
@@ -79,7 +79,7 @@ impl Surfaces {
             draws: &[geometry.vertices()],
         };
         let time = pass.run(gpu)?;
-        // Pixels that nothing was drawn to hold zeros, as triangle 0 does: numbers on the card are one higher.
+        // Cleared pixels hold zero, so triangle indices on the GPU are one higher.
         let numbers: Vec<u32> = read_back::texels(gpu, &triangles)?;
         let triangles = numbers.into_iter().map(|number| number.wrapping_sub(1)).collect();
         let normals = geometry.normals.clone();

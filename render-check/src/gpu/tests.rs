@@ -1,4 +1,4 @@
-//! What the card draws, against rays.
+//! What the GPU draws, compared with rays.
 
 use shadowfit::glam::{DVec2, DVec3};
 use shadowfit::{
@@ -63,7 +63,7 @@ fn the_camera_sees_the_triangles_that_rays_meet() {
             tracer.first_hit(&ray).map_or(Surfaces::SKY, |hit| hit.triangle as u32) == **drawn
         })
         .count();
-    // Pixels whose middle lies on an edge may go either way.
+    // Pixels whose centre lies on an edge may differ.
     let all = (width * height) as usize;
     assert!(same * 200 >= all * 199, "{same} of {all} pixels");
 }
@@ -136,7 +136,7 @@ fn each_part_of_a_light_has_its_layer() {
     let lit = |maps: &ShadowMaps| shadow_test(&stage.gpu, &surfaces, maps, Filter::Nearest).expect("tested").lit;
     let one = lit(&one);
 
-    // The parts as if a lamp hung in the middle of the board; the maps are the sun's all the same.
+    // Parts around a point in the middle of the board, with the sun's map in each.
     let split = Split::cube(DVec3::new(0.0, 0.5, -4.0));
     let (all, bias) = (0..stage.mesh.triangles.len() as u32, Bias { constant: 4, slope: 2.0 });
     let all = [all];
@@ -154,7 +154,7 @@ fn each_part_of_a_light_has_its_layer() {
     );
     let draw = |maps: &[Option<MapDraw>]| ShadowMaps::draw(&stage.gpu, &geometry, &split, maps);
     assert_eq!(lit(&draw(&[Some(full); 6]).expect("drawn")), one);
-    // A part without a map is lit, as is one whose map holds nothing; the layers of the others close up.
+    // A part without a map is lit, as is one with an empty map; no layer is allocated for it.
     let some = lit(&draw(&[None, Some(full), None, Some(full), None, None]).expect("drawn"));
     let others_empty = [empty, full, empty, full, empty, empty].map(Some);
     assert_eq!(some, lit(&draw(&others_empty).expect("drawn")));
@@ -202,7 +202,7 @@ fn virtual_samples_on_the_card_are_those_of_the_crate() {
                 same += usize::from(is_alike && used_plane[i] == (expected.rule == Decision::VirtualSamples));
                 of_plane += usize::from(used_plane[i]);
             }
-            // Faces turned away from the light, whose planes it grazes, may go either way.
+            // Faces at grazing incidence may differ.
             assert!(same * 50 >= compared * 49, "{same} of {compared} pixels, {taps} taps, {clip:?}");
             assert!(of_plane * 2 > compared, "{of_plane} of {compared}");
         }
@@ -228,7 +228,7 @@ fn the_second_layer_is_the_next_surface_that_rays_meet() {
             let first = maps.depths(&stage.gpu).expect("readable").remove(0);
             let away = |depth: f32| f64::from(if clip.depth.is_reversed() { 1.0 - depth } else { depth });
             let tolerance = stage.map.comparison_tolerance(format, 0.5).expect("a reach");
-            // The least that it is anywhere.
+            // Its minimum.
             let gap = 2.0 * tolerance.at(1.0);
             let (mut same, mut beyond) = (0, 0);
             for (i, (first, behind)) in first.into_iter().zip(behind).enumerate() {
@@ -294,10 +294,10 @@ fn a_step_of_bias_is_what_it_is_said_to_be() {
             shadow_maps.depths(&stage.gpu).expect("readable").remove(0)
         };
         let steps = 500;
-        // Depths from a quarter on are looked at; triangles that reach out of the map may have more than 1.
+        // Only depths from 1/4 on are compared; triangles that reach out of the map may exceed 1.
         let (least, most) = (*format.bias_unit(0.25).start(), *format.bias_unit(1.0).end());
         for (after, before) in depths(steps).iter().zip(&depths(0)) {
-            // Floating point has finer steps nearer to zero; at the far end the depth buffer ends.
+            // Floating point is finer near zero; the depth buffer clamps at the far end.
             if (0.25..0.98).contains(before) {
                 let step = f64::from(after - before) / f64::from(steps);
                 assert!((0.99 * least..=1.01 * most).contains(&step), "{format:?}: {step} at {before}");
@@ -306,7 +306,7 @@ fn a_step_of_bias_is_what_it_is_said_to_be() {
     }
 }
 
-/// Both hemispheres of a lamp in the midst of the chess board.
+/// Both hemispheres of a point light in the middle of the chess board.
 fn hemispheres(stage: &Stage, clip: ClipSpace) -> [Paraboloid; 2] {
     let light = Light::point(LAMP, 0.02, f64::INFINITY).expect("sound");
     let (min, max) = stage.mesh.bounds();
@@ -321,7 +321,7 @@ fn hemispheres(stage: &Stage, clip: ClipSpace) -> [Paraboloid; 2] {
 
 const LAMP: DVec3 = DVec3::new(0.0, 1.3, -4.0);
 
-/// Both maps of the lamp, its casters cut as finely as they must be, without a bias; and the mesh.
+/// Both maps of the light, casters tessellated, without a bias; and the mesh.
 fn draw_hemispheres(stage: &Stage, maps: &[Paraboloid; 2], format: DepthFormat) -> ShadowMaps {
     let drawn = vec![true; stage.mesh.objects.len()];
     let cut = Cut::new(&stage.gpu, stage.view.eye(), &stage.mesh, &drawn, &maps[0], Cutting::Bound);
@@ -367,9 +367,9 @@ fn paraboloids_hold_the_distances_that_rays_find_in_every_convention() {
                     met += usize::from(depth < 1.0);
                     close += usize::from((f64::from(stored) - depth).abs() < 1e-5);
                 }
-                // Texels at edges, drawn half a texel off at most, may go either way.
+                // Texels at edges, which are drawn at most half a texel off, may differ.
                 assert!(close * 100 >= inside * 97, "{close} of {inside}, {clip:?}, {format:?}");
-                // The board is below the lamp, and a few pieces reach above it.
+                // The board is below the light, and a few pieces reach above it.
                 assert_eq!(met * 2 > inside, map.axis().y < 0.0, "{met} of {inside}");
             }
         }

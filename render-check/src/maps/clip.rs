@@ -1,4 +1,4 @@
-//! The clip spaces that maps are fitted for.
+//! Clip spaces by name.
 
 use clap::ValueEnum;
 use shadowfit::ClipSpace;

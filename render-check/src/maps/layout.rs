@@ -1,19 +1,19 @@
-//! The kinds of maps that the crate fits.
+//! A fitted map of either kind.
 
 use anyhow::{Context, Result};
 use shadowfit::glam::DVec3;
 use shadowfit::{DepthFormat, Settings, ShadowMap, depth::DepthBias, omni::Paraboloid};
 
-/// How far, in texels, an edge of a caster that is cut for a paraboloid may be drawn from its arc.
+/// The largest deviation, in texels, of a tessellated edge from its true curve in a paraboloid map.
 pub const BENT: f64 = 0.5;
 
-/// A fitted map: how it lays out the world.
+/// A fitted map.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "a light has six at most")]
 pub enum Layout {
-    /// A matrix.
+    /// A single matrix.
     Frustum(ShadowMap),
-    /// Half of everything around a light.
+    /// A paraboloid, for one hemisphere around a light.
     Paraboloid(Paraboloid),
 }
 
@@ -27,7 +27,8 @@ impl Layout {
         }
     }
 
-    /// How much larger a texel is than a pixel at a point, see [`ShadowMap::aliasing`]; `None` where the map has no place for it.
+    /// The aliasing at a point, texel size over pixel size, see [`ShadowMap::aliasing`]; `None` outside the map's
+    /// domain.
     #[must_use]
     pub fn aliasing(&self, point: DVec3) -> Option<f64> {
         match self {
@@ -36,11 +37,11 @@ impl Layout {
         }
     }
 
-    /// The bias with which no plane shadows itself, for a filter that reaches so many texels.
+    /// The smallest bias that rules out shadow acne on planes, for a filter with this reach in texels.
     ///
     /// # Errors
     ///
-    /// When there is no such filter.
+    /// When the reach is not that of a filter.
     pub fn bias(&self, format: DepthFormat, reach: f64) -> Result<DepthBias> {
         let bias = match self {
             Self::Frustum(map) => map.bias(format, reach),

@@ -1,4 +1,4 @@
-//! The kinds of maps, and how a light is shared out among several.
+//! Techniques, kinds of maps, and how a light is split among several maps.
 
 mod clip;
 mod layout;

@@ -1,15 +1,15 @@
-//! Fits without a map.
+//! Fits that give no map.
 
 use std::fmt;
 
 use shadowfit::{Empty, Outcome, ShadowMap, Surrounded};
 
-/// The fit's answer where there is no map.
+/// Why a fit gives no map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoMap {
     /// None is needed.
     Empty(Empty),
-    /// No single one will do.
+    /// No single frustum can hold the receivers.
     Surrounded(Surrounded),
 }
 
@@ -22,7 +22,7 @@ impl fmt::Display for NoMap {
     }
 }
 
-/// The map of a fit, or why there is none.
+/// The map of a fit, or the reason for none.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! The view cut into slices, as the command line asks for it.
+//! Cascades, as asked for on the command line.
 
 use std::fmt;
 use std::str::FromStr;
@@ -9,27 +9,27 @@ use shadowfit::{
     cascades::{CascadeSplits, Cascades},
 };
 
-/// How a view is cut into slices, each with a map of its own.
+/// How a view is split into cascades, one map each.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Slicing {
-    /// How many slices, 1 to [`Cascades::MAX`].
+    /// The number of cascades, 1 to [`Cascades::MAX`].
     pub count: usize,
-    /// How depths are shared out among them.
+    /// The split scheme.
     pub split: SplitArg,
 }
 
-/// How depths are shared out among slices, as a word.
+/// A split scheme with the command line's spelling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplitArg(pub shadowfit::cascades::SplitScheme);
 
 impl Default for SplitArg {
-    /// Cuts in one ratio are the best there are for what is seen, as they begin where something is seen.
+    /// Logarithmic splits are the best for the depth range of the receivers, as it begins at a visible surface.
     fn default() -> Self {
         Self(shadowfit::cascades::SplitScheme::Logarithmic)
     }
 }
 
-/// The word that the command line takes.
+/// The command line's spelling.
 impl fmt::Display for SplitArg {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
@@ -63,7 +63,8 @@ impl serde::Serialize for SplitArg {
 }
 
 impl Slicing {
-    /// The cuts: between the depths of what may be seen, or, where they must not move with the camera, between its planes.
+    /// The splits of the receivers' depth range; for stabilised maps, which must not depend on visible surfaces, of
+    /// the range between the near and far planes.
     #[must_use]
     pub fn cuts(&self, stay_put: bool) -> CascadeSplits<'static> {
         let Self { count, split: SplitArg(split) } = *self;
@@ -71,11 +72,11 @@ impl Slicing {
     }
 }
 
-/// Cuts a view. Nothing is blended from slice to slice: each pixel is of one slice.
+/// Splits a view into cascades, without blending between them.
 ///
 /// # Errors
 ///
-/// When cuts are to stay put in a view without an end.
+/// For stabilised cascades of a view with an infinite far plane.
 pub fn slices(
     view: &View,
     light: &Light,

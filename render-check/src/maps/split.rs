@@ -1,4 +1,4 @@
-//! Which of a light's maps answers for a point.
+//! Which of a light's maps covers a point.
 
 use shadowfit::glam::{DVec3, DVec4};
 use shadowfit::{
@@ -6,29 +6,29 @@ use shadowfit::{
     omni::CubeFace,
 };
 
-/// How what a light shines on is shared out among its maps.
+/// How the domain of a light is split among its maps.
 #[derive(Clone, Debug)]
 pub enum Split {
-    /// By the direction from the light. Each part has an axis, and a point belongs to the part whose axis its direction is
-    /// nearest to: the six axes of the world make the faces of a cube, an axis and its opposite two half spaces, and one
-    /// alone all there is.
+    /// By direction from the light. Each part has an axis, and a point belongs to the part with the nearest axis:
+    /// the six world axes give cube faces, an axis and its opposite two half spaces, and a single axis the whole
+    /// space.
     Directions {
-        /// Where the light is, in world space; of no account where there is one part.
+        /// The light's position, in world space; unused with a single part.
         position: DVec3,
         /// The axes of the parts, from the light.
         axes: Vec<DVec3>,
     },
-    /// By the depth before the eye: each part is a slice of the view.
+    /// By depth in front of the eye: each part is a cascade.
     Depths {
-        /// How the view was cut.
+        /// The splits.
         cuts: CascadeSplits<'static>,
-        /// The slices.
+        /// The cascades.
         slices: Box<Cascades<'static>>,
     },
 }
 
 impl Split {
-    /// One part, for lights that one map serves.
+    /// A single part, for lights with one map.
     #[must_use]
     pub fn whole() -> Self {
         Self::Directions { position: DVec3::ZERO, axes: vec![DVec3::ZERO] }
@@ -40,19 +40,19 @@ impl Split {
         Self::Directions { position, axes: CubeFace::ALL.map(CubeFace::axis).to_vec() }
     }
 
-    /// The half spaces before and behind a light.
+    /// The half spaces in front of a light and behind it.
     #[must_use]
     pub fn halves(position: DVec3, axis: DVec3) -> Self {
         Self::Directions { position, axes: vec![axis, -axis] }
     }
 
-    /// The slices of a view that was cut so.
+    /// The cascades of a view, with their splits.
     #[must_use]
     pub fn slices(cuts: CascadeSplits<'static>, slices: Cascades<'static>) -> Self {
         Self::Depths { cuts, slices: Box::new(slices) }
     }
 
-    /// How many parts there are.
+    /// The number of parts.
     #[must_use]
     pub fn parts(&self) -> usize {
         match self {
@@ -61,7 +61,7 @@ impl Split {
         }
     }
 
-    /// The part that a point belongs to; the first of those that it lies between.
+    /// The part that a point belongs to; on a boundary, the first.
     #[must_use]
     pub fn part_of(&self, point: DVec3) -> usize {
         match self {
@@ -73,7 +73,7 @@ impl Split {
         }
     }
 
-    /// Where the light is, in world space; zero where that is of no account.
+    /// The light's position, in world space; zero where it is unused.
     #[must_use]
     pub fn position(&self) -> DVec3 {
         match self {
@@ -82,7 +82,7 @@ impl Split {
         }
     }
 
-    /// The axis of a part, from the light; zero where all directions belong to it.
+    /// The axis of a part, from the light; zero where it covers all directions.
     #[must_use]
     pub fn axis(&self, part: usize) -> DVec3 {
         match self {
@@ -91,7 +91,7 @@ impl Split {
         }
     }
 
-    /// The depths before the eye that a part is for, from and to; nothing where it is for all.
+    /// The depth range of a part; `None` where it covers all depths.
     #[must_use]
     pub fn depths(&self, part: usize) -> Option<[f64; 2]> {
         match self {
@@ -100,7 +100,8 @@ impl Split {
         }
     }
 
-    /// Where slices end, in f32 as a shader compares it, the last one never; nothing where there are no slices.
+    /// The far ends of the cascades in f32, as a shader compares them, the last one unbounded; `None` without
+    /// cascades.
     #[must_use]
     pub fn ends(&self) -> Option<[f32; Cascades::MAX]> {
         let Self::Depths { slices, .. } = self else { return None };
@@ -111,8 +112,8 @@ impl Split {
         Some(ends)
     }
 
-    /// What a position relative to an origin, and 1, are to be multiplied by for its depth before the eye; zero where there
-    /// are no slices.
+    /// The row vector whose product with (position relative to `origin`, 1) is the depth in front of the eye; zero
+    /// without cascades.
     #[must_use]
     pub fn depth_row(&self, origin: DVec3) -> DVec4 {
         match self {
@@ -145,7 +146,7 @@ mod tests {
     fn parts_of_a_cube_are_its_faces() {
         let position = DVec3::new(3.0, -2.0, 0.5);
         let cube = Split::cube(position);
-        // Sums with the position are exact, so that seams are met.
+        // Sums with the position are exact, so that points lie on seams exactly.
         let steps = [-1.0, -0.5, 0.0, 0.25, 1.0];
         let arms = steps.iter().flat_map(|&x| steps.iter().flat_map(move |&y| steps.map(|z| DVec3::new(x, y, z))));
         for arm in arms {

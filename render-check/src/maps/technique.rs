@@ -1,82 +1,82 @@
-//! The ways to fit a map that are compared.
+//! The techniques that are compared.
 
 use std::fmt;
 
 use clap::ValueEnum;
 use shadowfit::{Effort, FocusForm, Settings, Warp, warp::Shift};
 
-/// A way to spread a map's texels.
+/// A technique: a warp, or another parameterization of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Technique {
-    /// Without a warp
+    /// Uniform: no warp
     Uniform,
-    /// Without a warp, its texels fixed in the world while the camera moves and turns
+    /// Uniform and stabilised: snapped to texels, of constant size while the camera moves and turns
     Stable,
-    /// The perspective shadow map, its camera moved back for the whole of H, as in the paper
+    /// Perspective shadow map (PSM), its virtual camera moved back for the whole of H, as in the paper
     Psm,
-    /// The same, moved back for the tight form of H
+    /// PSM, moved back for the tight form of H
     PsmTight,
-    /// The same, with its camera where the view's is
+    /// PSM, its virtual camera at the eye
     PsmUnshifted,
-    /// The light-space perspective shadow map
+    /// Light-space perspective shadow map (LiSPSM)
     LightSpace,
-    /// The trapezoidal shadow map
+    /// Trapezoidal shadow map (TSM)
     Trapezoidal,
-    /// The best single matrix that is found
+    /// The best single matrix, by search
     Best,
     /// The best of the closed forms, without a search
     BestClosed,
-    /// The same, searched for a short time
+    /// The best, with a short search
     BestRough,
-    /// The same, searched for a long time
+    /// The best, with a long search
     BestThorough,
-    /// Without a warp, a map for each face of the cube around a lamp
+    /// Cube map: a uniform map for each cube face around a point light
     Cube,
-    /// The perspective shadow map of each face of the cube around a lamp
+    /// Cube map with a PSM for each face
     CubePsm,
-    /// Without a warp, the texels of each face of the cube fixed in the world
+    /// Cube map with stabilised faces
     CubeStable,
-    /// One or two paraboloids around a lamp, as many as it needs
+    /// One or two paraboloids around a point light, as needed
     Paraboloid,
 }
 
 impl Technique {
-    /// Those that are compared where nobody chooses.
+    /// The techniques compared by default.
     pub const COMPARED: [Self; 4] = [Self::Uniform, Self::Psm, Self::LightSpace, Self::Best];
 
-    /// One of every kind of warp there is for one map.
+    /// One technique for every kind of warp of a single map.
     pub const WARPS: [Self; 6] =
         [Self::Uniform, Self::Psm, Self::PsmUnshifted, Self::LightSpace, Self::Trapezoidal, Self::Best];
 
-    /// Those for lamps among what they light.
+    /// Techniques for point lights inside the scene.
     pub const CUBES: [Self; 2] = [Self::Cube, Self::CubePsm];
 
-    /// Those that were asked for, or those that are compared where none was.
+    /// The techniques asked for, or the default ones.
     #[must_use]
     pub fn or_compared(asked_for: &[Self]) -> &[Self] {
         if asked_for.is_empty() { &Self::COMPARED } else { asked_for }
     }
 
-    /// Whether each face of the cube around a lamp has a map of its own.
+    /// Whether it has a map for each cube face.
     #[must_use]
     pub fn has_faces(self) -> bool {
         matches!(self, Self::Cube | Self::CubePsm | Self::CubeStable)
     }
 
-    /// Whether its matrix is searched for, which can begin at that of the frame before.
+    /// Whether its matrix is searched for, and so can be warm-started.
     #[must_use]
     pub fn is_searched(self) -> bool {
         matches!(self, Self::Best | Self::BestClosed | Self::BestRough | Self::BestThorough)
     }
 
-    /// Whether lamps have maps that are no frusta.
+    /// Whether point and spot lights have paraboloid maps.
     #[must_use]
     pub fn is_paraboloid(self) -> bool {
         self == Self::Paraboloid
     }
 
-    /// The technique of a single map with such settings; of the same warp where none has its shift.
+    /// The single-map technique with these settings; else one with the same warp.
     #[must_use]
     pub fn of(settings: &Settings) -> Self {
         let is_single = |way: &&Self| !way.has_faces() && !way.is_paraboloid();
@@ -86,13 +86,13 @@ impl Technique {
         same.or_else(like).copied().unwrap_or(Self::Uniform)
     }
 
-    /// Whether its texels stay where they are while the camera moves.
+    /// Whether its maps are stabilised.
     #[must_use]
     pub fn stays_put(self) -> bool {
         matches!(self, Self::Stable | Self::CubeStable)
     }
 
-    /// The settings with this technique's warp and shift.
+    /// The settings with this technique's warp and back-shift.
     #[must_use]
     pub fn settings(self, settings: Settings) -> Settings {
         let (warp, shift) = match self {
@@ -103,7 +103,7 @@ impl Technique {
             Self::PsmUnshifted => (Warp::Perspective, Shift::None),
             Self::LightSpace => (Warp::LightSpace, Shift::None),
             Self::Trapezoidal => (Warp::Trapezoidal, Shift::None),
-            // Its search begins at the perspective map, too, as the paper has that.
+            // Its search starts from the paper's PSM, among others.
             Self::Best => (Warp::Best(Effort::Good), Shift::Back(FocusForm::ViewHull)),
             Self::BestClosed => (Warp::Best(Effort::ClosedForms), Shift::Back(FocusForm::ViewHull)),
             Self::BestRough => (Warp::Best(Effort::Rough), Shift::Back(FocusForm::ViewHull)),
@@ -113,7 +113,7 @@ impl Technique {
     }
 }
 
-/// The word that the command line takes.
+/// The command line's spelling.
 impl fmt::Display for Technique {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.to_possible_value().map_or(Ok(()), |value| f.pad(value.get_name()))
@@ -131,7 +131,7 @@ mod tests {
         assert_eq!(ways.len(), 11);
         for &way in ways {
             assert_eq!(Technique::of(&way.settings(Settings::default())), way);
-            // The back-shift makes no difference to other warps than the camera's.
+            // The back-shift matters for the perspective warp only.
             let shifted = way.settings(Settings::default()).with_shift(Shift::Back(FocusForm::ReceiverHull));
             assert_eq!(Technique::of(&shifted).settings(shifted).warp(), shifted.warp());
         }

@@ -6,17 +6,17 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use serde::Serialize;
 
-/// Makes a directory where it is missing.
+/// Creates a directory where it is missing.
 ///
 /// # Errors
 ///
-/// When it cannot be made.
+/// When it cannot be created.
 pub fn make_directory(out: &Path) -> Result<()> {
     fs::create_dir_all(out)
         .with_context(|| format!("cannot make the directory '{}'; choose another with --out", out.display()))
 }
 
-/// Writes results as JSON, for programs.
+/// Writes a report as JSON.
 ///
 /// # Errors
 ///

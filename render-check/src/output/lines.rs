@@ -2,12 +2,12 @@
 
 use std::io::{Write as _, stderr, stdout};
 
-/// Prints a line. Nobody listening (`render-check | head`) is no reason to leave the work undone.
+/// Prints a line. A closed pipe (`render-check | head`) does not end the program.
 pub fn say(line: &str) {
     drop(writeln!(stdout(), "{line}"));
 }
 
-/// Prints a line aside from the results.
+/// Prints a line on stderr.
 pub fn complain(line: &str) {
     drop(writeln!(stderr(), "{line}"));
 }

@@ -1,4 +1,4 @@
-//! What goes to the terminal and into files.
+//! Output to the terminal and to files.
 
 mod files;
 mod lines;

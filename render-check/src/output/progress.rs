@@ -12,7 +12,7 @@ pub fn bar(what: &str, steps: usize) -> ProgressBar {
     bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
-/// A sign of life for work that cannot tell how far it is.
+/// A spinner for work without known progress.
 #[must_use]
 pub fn spinner(what: &str) -> ProgressBar {
     let spinner = ProgressBar::new_spinner().with_message(what.to_owned());

@@ -1,9 +1,9 @@
-//! Tables and numbers, as all of them are printed.
+//! Tables and numbers in a common format.
 
 use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 
-/// A table without rows. The columns in `numbers`, counted from 0, are set to the right, the others to the left.
+/// A table without rows. The columns in `numbers`, counted from 0, are right-aligned, the others left-aligned.
 #[must_use]
 pub fn new<const N: usize>(header: [&str; N], numbers: impl IntoIterator<Item = usize>) -> Table {
     let mut table = Table::new();
@@ -16,7 +16,7 @@ pub fn new<const N: usize>(header: [&str; N], numbers: impl IntoIterator<Item = 
     table
 }
 
-/// A number with three digits that matter.
+/// A number with three digits.
 #[must_use]
 pub fn number(value: f64) -> String {
     let digits =
@@ -24,7 +24,7 @@ pub fn number(value: f64) -> String {
     format!("{value:.*}", digits as usize)
 }
 
-/// A share of the whole, 0 to 1, in percent.
+/// A fraction, 0 to 1, in percent.
 #[must_use]
 pub fn percent(share: f64) -> String {
     format!("{} %", number(100.0 * share))

@@ -1,4 +1,4 @@
-//! Where pictures are drawn: linear colours with the distance of what each sample shows, and their way to a PNG.
+//! A canvas of linear colours and depths, and its conversion to a PNG.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 /// Linear RGB.
 pub type Colour = [f32; 3];
 
-/// The focus body's edges.
+/// The edges of H.
 pub(super) const BODY_COLOUR: Colour = [1.0, 0.28, 0.02];
 
 /// The camera's frustum.
@@ -22,13 +22,13 @@ pub(super) const SAMPLES: u32 = 2;
 /// One sample of a picture.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
-    /// What is seen.
+    /// The colour.
     pub colour: Colour,
-    /// How far along its ray, in world units; infinite where nothing is met.
+    /// The distance along its ray, in world units; infinite where nothing is hit.
     pub distance: f64,
 }
 
-/// A picture in the making, twice as wide and high as it will be: four samples make a pixel.
+/// A supersampled picture: 2 × 2 samples make a pixel.
 #[derive(Clone, Debug)]
 pub struct Canvas {
     /// Samples in a row.
@@ -40,8 +40,8 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// Fills a canvas for a picture of so many pixels by asking `sample` about each sample: its column, its row, and
-    /// the numbers of columns and rows. All processors take part.
+    /// Fills a canvas for a picture of this size in pixels. `sample` gets column, row, and the numbers of columns
+    /// and rows, in parallel.
     pub fn render(
         width: u32,
         height: u32,
@@ -62,7 +62,7 @@ impl Canvas {
         Self { width, height, samples }
     }
 
-    /// The position of a sample in `samples`.
+    /// The index of a sample in `samples`.
     #[must_use]
     pub fn index(&self, x: u32, y: u32) -> usize {
         y as usize * self.width as usize + x as usize

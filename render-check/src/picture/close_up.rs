@@ -1,4 +1,4 @@
-//! Parts of pictures, magnified.
+//! Magnified parts of pictures.
 
 use std::str::FromStr;
 
@@ -10,19 +10,19 @@ use super::text;
 /// A square of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CloseUp {
-    /// The pixel in its middle, from the top left corner.
+    /// Its centre pixel, from the top left corner.
     pub middle: [u32; 2],
     /// Pixels along its side.
     pub side: u32,
 }
 
-/// The side of a magnified part, in pixels, where that is a whole number of its own pixels.
+/// The side of a magnified part, in pixels, rounded to a multiple of the source pixels.
 const SHOWN: u32 = 240;
 
 const TEXT: Rgb<u8> = Rgb([225, 225, 220]);
 
 impl CloseUp {
-    /// The square out of a picture, its pixels magnified to squares, with a title; what of it lies outside is left out.
+    /// The square of a picture, magnified, with a title; pixels outside the picture are left out.
     #[must_use]
     pub fn of(&self, image: &RgbImage, title: &str) -> RgbImage {
         let [left, top] = self.middle.map(|middle| middle.saturating_sub(self.side / 2));

@@ -1,4 +1,4 @@
-//! The scene as a light sees it, with the camera's frustum and the focus body over it.
+//! The scene from the light, with the camera's frustum and the caster volume H drawn over it.
 
 use anyhow::Result;
 use image::{Rgb, RgbImage};
@@ -13,25 +13,24 @@ use crate::output::progress;
 use crate::scene::{LightSpec, Mesh};
 use crate::trace::{Lens, Tracer};
 
-/// Room left around what must be seen, as a part of it.
+/// The margin around the picture's contents, relative to their size.
 const MARGIN: f64 = 1.12;
 
-/// The camera and the far end of its frustum are left out of the picture where they would make it wider than this,
-/// beside the focus body alone.
+/// The largest factor by which the picture may grow to include the camera and its frustum besides H.
 const MOST_SHRINKING: f64 = 1.7;
 
-/// The widest a lamp's picture opens upwards and downwards, as a tangent: 70 degrees to either side.
+/// The largest tangent of half the field of view from a local light: 70 degrees.
 const WIDEST_SLOPE: f64 = 2.747;
 
-/// How bright what lies outside the focus body is, beside what lies inside.
+/// The brightness of surfaces outside H, relative to those inside.
 const OUTSIDE_BRIGHTNESS: f32 = 0.3;
 
-/// A lens at the light that shows all of the focus body, and the camera and its frustum as far as they do not make the
-/// body small. The camera's forward direction is up in the picture, as far as the light allows.
+/// A lens at the light that shows all of H, and the camera and its frustum as far as they leave H large. The
+/// camera's forward direction points up in the picture where possible.
 ///
 /// # Errors
 ///
-/// When there is nothing to look at.
+/// When H is empty.
 pub fn light_lens(light: &LightSpec, view: &View, body: &ConvexBody, mesh: &Mesh, aspect: f64) -> Result<Lens> {
     let (min, max) = mesh.bounds();
     let subject = if body.is_empty() { vec![min, max] } else { body.vertices().to_vec() };
@@ -53,7 +52,7 @@ pub fn light_lens(light: &LightSpec, view: &View, body: &ConvexBody, mesh: &Mesh
                 _ => middle_direction(position, &subject),
             };
             let axes = axes_towards(forward.normalize_or(DVec3::NEG_Y));
-            // The widest slope to any point of the body; behind the light or beside it, as wide as can be.
+            // The largest slope to any point of H, capped for points beside the light or behind it.
             let slope = |axis: DVec3, p: DVec3| {
                 let depth = axes[2].dot(p - position);
                 if depth > 0.0 { (axis.dot(p - position) / depth).abs() } else { f64::INFINITY }
@@ -67,9 +66,9 @@ pub fn light_lens(light: &LightSpec, view: &View, body: &ConvexBody, mesh: &Mesh
     }
 }
 
-/// The middle of the narrowest cone about all points, as seen from a position: the centre of the smallest ball about
-/// their directions, by Bădoiu and Clarkson's steps towards whichever is farthest off, shorter each time. Points all
-/// around leave no such cone; then it is the direction to the middle of the points.
+/// The axis of the narrowest cone around all points, seen from a position: the centre of the smallest enclosing
+/// ball of their directions by Bădoiu and Clarkson's iteration. Where points lie all around and no such cone
+/// exists, the direction to their centroid.
 fn middle_direction(position: DVec3, points: &[DVec3]) -> DVec3 {
     let directions: Vec<DVec3> = points.iter().map(|&p| (p - position).normalize_or_zero()).collect();
     let mut middle = directions.iter().sum::<DVec3>() / directions.len() as f64;
@@ -97,7 +96,7 @@ fn parallel_lens(
             .map(|&p| DVec2::new(right.dot(p), up.dot(p)))
             .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
     };
-    // Rather lose the far end of a long frustum than shrink the body to a speck.
+    // Better to cut off the far end of a long frustum than to shrink H to a speck.
     let size = |points: &[DVec3]| window(points).1 - window(points).0;
     let mut shown = subject.to_vec();
     let frustum = view.corners().map_or_else(Vec::new, |corners| corners.to_vec());
@@ -128,7 +127,7 @@ fn corners(min: DVec3, max: DVec3) -> [DVec3; 8] {
     })
 }
 
-/// Casts the light's picture through its lens and draws the camera's frustum and the focus body's edges over it.
+/// Ray-casts the picture through the light's lens and draws the camera's frustum and the edges of H over it.
 #[must_use]
 pub fn light_view(
     lens: &Lens,
@@ -138,7 +137,7 @@ pub fn light_view(
     [width, height]: [u32; 2],
 ) -> RgbImage {
     let bar = progress::bar("the light's view", 0);
-    // The outermost surfaces of a scene lie on the faces of its box, and so of H: a hair decides nothing there.
+    // The outermost surfaces of a scene lie exactly on faces of its box and so of H, hence the tolerance.
     let (min, max) = tracer.bounds();
     let hair = 1e-9 * (max - min).length();
     let is_inside = |point: DVec3| {
@@ -166,8 +165,8 @@ pub fn light_view(
     image
 }
 
-/// The frustum's edges; an endless frustum is drawn a good way beyond the scene. The four edges along the view start at
-/// the eye, which is what makes a frustum look like one.
+/// The frustum's edges; an infinite frustum is drawn to well beyond the scene. The four edges along the view start
+/// at the eye, so that the shape is recognisable.
 fn frustum_lines(view: &View, mesh: &Mesh) -> Vec<Line> {
     let (min, max) = mesh.bounds();
     let end = 2.0 * (max - min).length() + view.eye().distance(0.5 * (min + max));

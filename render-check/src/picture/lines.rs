@@ -1,4 +1,4 @@
-//! Lines in space, drawn over a picture: solid where they are in sight, faint dashes where something is before them.
+//! Lines in space, drawn over a picture: solid where visible, faintly dashed where hidden.
 
 use shadowfit::glam::{DVec2, DVec3, DVec4};
 
@@ -15,21 +15,21 @@ pub struct Pen {
     pub colour: Colour,
     /// Half the width, in samples of the canvas.
     pub radius: f64,
-    /// How much of the colour is seen where a line is in sight, 0 to 1.
+    /// The opacity of visible parts, 0 to 1.
     pub opacity: f32,
-    /// The same where something is before it.
+    /// The opacity of hidden parts.
     pub hidden_opacity: f32,
 }
 
 impl Pen {
-    /// The usual pen of a colour.
+    /// A pen of this colour with default widths.
     #[must_use]
     pub const fn new(colour: Colour) -> Self {
         Self { colour, radius: 1.7, opacity: 1.0, hidden_opacity: 0.55 }
     }
 }
 
-/// Lines are seen this many samples' widths behind a surface: those that lie in a surface should be.
+/// The depth tolerance, in sample widths: lines that lie in a surface should be visible.
 const DEPTH_SLACK: f64 = 2.0;
 
 /// A dash of a hidden line and the gap after it, in samples.
@@ -37,7 +37,7 @@ const DASH: f64 = 7.0;
 
 /// Draws lines over a canvas that shows the scene through `lens`.
 pub fn draw_lines(canvas: &mut Canvas, lens: &Lens, lines: &[Line], pen: &Pen) {
-    // Strokes are gathered first, so that where they meet nothing is painted twice.
+    // Coverage is accumulated first, so that crossings are not painted twice.
     let mut ink = vec![0.0_f32; canvas.samples.len()];
     for line in lines {
         stroke(canvas, lens, line, pen, &mut ink);
@@ -70,12 +70,12 @@ fn stroke(canvas: &Canvas, lens: &Lens, line: &Line, pen: &Pen, ink: &mut [f32])
     }
 }
 
-/// Cuts a line down to what the lens shows, a little beyond the picture's edges; the ends come out in clip space after
-/// division by w.
+/// Clips a line to the lens, with a margin beyond the picture's edges; returns its ends in normalised device
+/// coordinates.
 fn clip_to_picture(lens: &Lens, line: &Line) -> Option<(DVec3, DVec3)> {
     const EDGE: f64 = 1.02;
-    // Inside where the dot product is not negative. The first four together imply w ≥ 0. The slack of the near plane
-    // keeps lines that lie in it, as the near ends of focus bodies do in their shadow maps.
+    // Inside where the dot product is not negative. The first four together imply w ≥ 0. The near plane's slack
+    // keeps lines that lie in it, as the near end of H does in its shadow map.
     const INSIDE: [DVec4; 5] = [
         DVec4::new(1.0, 0.0, 0.0, EDGE),
         DVec4::new(-1.0, 0.0, 0.0, EDGE),
@@ -101,8 +101,8 @@ fn clip_to_picture(lens: &Lens, line: &Line) -> Option<(DVec3, DVec3)> {
     (start.is_finite() && end.is_finite()).then_some((start, end))
 }
 
-/// Whether the picture shows something nearer than the point at `ndc`. The neighbours are asked too: where a line lies
-/// in a surface seen at a grazing angle, the next sample can be far nearer.
+/// Whether the point at `ndc` is hidden. Neighbouring samples are tested too: where a line lies in a surface seen
+/// at a grazing angle, the next sample can be much nearer.
 fn is_hidden(canvas: &Canvas, lens: &Lens, ndc: DVec3, place: DVec2, sample_extent: DVec2) -> bool {
     let (Some(point), Some(ray)) = (lens.unproject(ndc), lens.ray(ndc.truncate())) else {
         return false;
@@ -123,7 +123,7 @@ fn stamp(canvas: &Canvas, ink: &mut [f32], place: DVec2, radius: f64, opacity: f
     });
 }
 
-/// Visits the samples of a square about a place: the index of each, and its distance from the place.
+/// Visits the samples of a square around a position, with the index of each and its distance from the position.
 fn for_samples_around(canvas: &Canvas, place: DVec2, reach: f64, mut visit: impl FnMut(usize, f64)) {
     let range =
         |centre: f64, size: u32| (centre - reach).max(0.0) as u32..((centre + reach).max(0.0) as u32 + 1).min(size);

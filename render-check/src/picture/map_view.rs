@@ -1,4 +1,4 @@
-//! Shadow maps as pictures: the depths that a renderer would find in them.
+//! Ray-cast shadow maps as pictures of their depths.
 
 use image::{Rgb, RgbImage};
 use rayon::prelude::*;
@@ -9,15 +9,15 @@ use super::text;
 use crate::output::progress;
 use crate::trace::{Lens, Tracer};
 
-/// The most texels a picture shows along a side: it is for eyes.
+/// The largest side of a map's picture, in texels.
 const MOST_TEXELS: u32 = 1024;
 
-/// The room around the maps and between them, in pixels.
+/// The margin around and between maps, in pixels.
 const GAP: u32 = 12;
 
 const GROUND: Rgb<u8> = Rgb([24, 26, 30]);
 const TEXT: Rgb<u8> = Rgb([225, 225, 220]);
-/// Texels in which nothing is met.
+/// The colour of texels without a surface.
 const NOTHING: Rgb<u8> = Rgb([38, 44, 64]);
 
 /// The depths of a square shadow map, found by a ray through the middle of each texel.
@@ -25,7 +25,8 @@ const NOTHING: Rgb<u8> = Rgb([38, 44, 64]);
 pub struct DepthMap {
     /// Texels along each side.
     pub size: u32,
-    /// Row by row from the top; 0 at the near end of the map's depth range, 1 at the far end and where nothing is met.
+    /// Row by row from the top; 0 at the near end of the map's depth range, 1 at the far end and where nothing is
+    /// hit.
     pub depths: Vec<f32>,
 }
 
@@ -48,7 +49,7 @@ impl DepthMap {
         Self { size, depths }
     }
 
-    /// The map as greys: near is light, far is dark, over the depths that occur.
+    /// The map in greys: near is light and far is dark, normalised to the depths that occur.
     #[must_use]
     pub fn to_image(&self) -> RgbImage {
         let met = self.depths.iter().copied().filter(|&d| d < 1.0);
@@ -61,10 +62,10 @@ impl DepthMap {
     }
 }
 
-/// One map of a picture: its title and its lens.
+/// A map's title and its lens.
 pub type TitledMap = (String, Lens);
 
-/// Casts maps of `size` texels and puts them side by side, each with the focus body's edges as the map sees them.
+/// Casts maps of `size` texels and puts them side by side, each with the edges of H as seen through the map.
 #[must_use]
 pub fn maps_view(maps: &[TitledMap], size: u32, tracer: &Tracer, body: &[Line]) -> RgbImage {
     let shown = size.min(MOST_TEXELS);
@@ -79,7 +80,7 @@ pub fn maps_view(maps: &[TitledMap], size: u32, tracer: &Tracer, body: &[Line]) 
     image
 }
 
-/// Draws lines thinly over a finished map, hidden parts and all.
+/// Draws thin lines over a finished map, hidden parts included.
 fn with_lines(map: RgbImage, lens: &Lens, lines: &[Line]) -> RgbImage {
     let blank = Sample { colour: [0.0; 3], distance: f64::INFINITY };
     let (width, height) = map.dimensions();

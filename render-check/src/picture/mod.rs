@@ -1,4 +1,4 @@
-//! What is written as PNG, and how it is drawn.
+//! The pictures that are written as PNG.
 
 mod canvas;
 mod close_up;

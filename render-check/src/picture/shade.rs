@@ -1,4 +1,4 @@
-//! The colour of what a ray meets.
+//! Shading of ray hits.
 
 use shadowfit::glam::{DVec3, FloatExt};
 
@@ -10,19 +10,19 @@ use crate::trace::{Hit, Ray, Tracer};
 #[derive(Clone, Copy, Debug)]
 pub struct Lighting {
     light: LightSpec,
-    /// The distance from a lamp at which its light is as bright as a sun's.
+    /// The distance from a local light at which it is as bright as a sun.
     full_at: f64,
 }
 
 impl Lighting {
-    /// The light, so bright that what is at `subject` looks well exposed.
+    /// The light, with a brightness that exposes `subject` well.
     #[must_use]
     pub fn new(light: LightSpec, subject: DVec3) -> Self {
         let full_at = light.position().map_or(1.0, |position| position.distance(subject));
         Self { light, full_at }
     }
 
-    /// Lambert's law with a ray-traced shadow, over a soft light from the sky that nothing shadows.
+    /// Lambert's law with a ray-traced shadow, plus unshadowed ambient light from the sky.
     #[must_use]
     pub fn shade(&self, tracer: &Tracer, hit: &Hit, ray: &Ray) -> Colour {
         self.shade_by(tracer.mesh(), hit, ray, |direction_to_light, distance| {
@@ -30,8 +30,8 @@ impl Lighting {
         })
     }
 
-    /// The same with shadows from elsewhere: `lit` is asked which share of the light arrives, 0 to 1, given the
-    /// direction towards the light and its distance; it is not asked where there is no light to shadow.
+    /// The same with given shadows: `lit` returns the lit fraction, 0 to 1, for the direction to the light and its
+    /// distance; it is only called where the light contributes.
     #[must_use]
     pub(super) fn shade_by(
         &self,
@@ -48,14 +48,15 @@ impl Lighting {
         [0, 1, 2].map(|i| base[i] * light[i] as f32)
     }
 
-    /// What arrives from the light itself: 1 where a surface faces it, unshadowed and at the full distance.
+    /// The direct light: 1 where a surface faces it at the reference distance, unshadowed.
     fn direct(&self, hit: &Hit, ray: &Ray, lit: impl FnOnce(DVec3, f64) -> f64) -> f64 {
         let (direction_to_light, distance) = match self.light.position() {
             Some(position) => ((position - hit.point).normalize_or(DVec3::Y), position.distance(hit.point)),
             None => (self.sun_direction(), f64::INFINITY),
         };
         let cosine = hit.shading_normal.dot(direction_to_light);
-        // The face, too, must be turned to the light: a smooth normal may see what its flat triangle cannot.
+        // The geometric normal must face the light too: a smooth normal may face it where the flat triangle does
+        // not.
         let side = if hit.is_back_face(ray) { -1.0 } else { 1.0 };
         let strength = self.strength(direction_to_light, distance);
         if cosine <= 0.0 || side * hit.face_normal.dot(direction_to_light) <= 0.0 || strength <= 0.0 {
@@ -72,7 +73,7 @@ impl Lighting {
     }
 
     fn strength(&self, direction_to_light: DVec3, distance: f64) -> f64 {
-        // Fades with the square of the distance, but not without bound close to the lamp.
+        // Inverse-square falloff, bounded close to the light.
         let fading = |range: f64| {
             let relative = distance / self.full_at;
             if distance > range { 0.0 } else { 2.0 / (1.0 + relative * relative) }
@@ -83,7 +84,7 @@ impl Lighting {
             LightSpec::Spot { position, target, cone_degrees, range } => {
                 let axis = (target - position).normalize_or(DVec3::NEG_Y);
                 let edge = (0.5 * cone_degrees).to_radians().cos();
-                // A narrow soft edge inside the cone: the outer thirtieth of 1 − cos.
+                // A narrow soft edge inside the cone: the outer 1/30 of 1 − cos.
                 let inner = edge.lerp(1.0, 1.0 / 30.0);
                 let cosine = axis.dot(-direction_to_light);
                 fading(range) * ((cosine - edge) / (inner - edge)).clamp(0.0, 1.0)
@@ -92,7 +93,7 @@ impl Lighting {
     }
 }
 
-/// What is seen where nothing is: paler towards the bottom, where `height` is 0, than at the top, where it is 1.
+/// The background: paler at the bottom, where `height` is 0, than at the top, where it is 1.
 #[must_use]
 pub(super) fn background(height: f32) -> Colour {
     mix([0.78, 0.82, 0.86], [0.36, 0.47, 0.62], height)

@@ -1,4 +1,4 @@
-//! Which slice of the view each pixel belongs to.
+//! The cascade of each pixel.
 
 use image::{Rgb, RgbImage};
 
@@ -7,7 +7,7 @@ use super::text;
 use crate::maps::Split;
 use crate::verdict::{Truth, TruthImage};
 
-/// A picture with each pixel in the colour of the part of the split that its surface belongs to, as dark as it was.
+/// A picture tinted by cascade, brightness preserved.
 ///
 /// `rendered` is a picture of the truth's size, as [`shaded`](super::shaded) makes one.
 #[must_use]
@@ -17,7 +17,7 @@ pub fn tinted(rendered: &RgbImage, truth: &TruthImage, split: &Split) -> RgbImag
         if let Truth::Seen(surface, _) = seen {
             let brightness = pixel.0.iter().map(|&channel| f32::from(channel)).sum::<f32>() / (3.0 * 255.0);
             let tint = COLOURS[split.part_of(surface.point) % COLOURS.len()];
-            // Bright surfaces keep their colour, and dark ones are seen.
+            // Bright surfaces keep their colour, and dark ones stay visible.
             pixel.0 = tint.map(|channel| encode(channel * (0.12 + brightness * brightness)));
         }
     }
@@ -28,7 +28,7 @@ pub fn tinted(rendered: &RgbImage, truth: &TruthImage, split: &Split) -> RgbImag
     image
 }
 
-/// A colour for each slice; those of neighbours are far apart.
+/// A colour for each cascade; neighbours contrast.
 const COLOURS: [Colour; 8] = [
     [1.0, 0.25, 0.16],
     [0.30, 0.95, 0.28],
@@ -64,7 +64,7 @@ mod tests {
         let split = Split::slices(cuts, slices(&fake::view(), &light, &scene, cuts).expect("a finite view"));
         let image = tinted(&grey, &truth, &split);
         let mut seen = [0; 3];
-        // But for the caption.
+        // Above the caption.
         for (index, pixel) in truth.pixels().iter().enumerate().take((width * (height - 30)) as usize) {
             let shown = image.get_pixel(index as u32 % width, index as u32 / width).0;
             let largest = (0..3).max_by_key(|&channel| shown[channel]);

@@ -1,4 +1,4 @@
-//! Pictures of a square that floats over a floor, small enough to know what every pixel must show.
+//! Pictures of a square that floats over a floor, small enough to know each pixel.
 
 use image::RgbImage;
 use shadowfit::glam::{DMat4, DVec2, DVec3};
@@ -20,7 +20,7 @@ fn floating_square() -> Mesh {
 
 const NOON: LightSpec = LightSpec::Sun { direction_to_light: DVec3::Y };
 
-/// Looks at the floor from the side, above it and below the square.
+/// Looks at the floor from the side, from a height between floor and square.
 fn view() -> View {
     View::perspective(DVec3::new(0.0, 1.0, 9.0), DVec3::new(0.0, -0.1, -1.0), DVec3::Y, 0.6, 1.0, 1.0, 20.0)
         .expect("a sound view")
@@ -93,7 +93,7 @@ fn the_light_sees_the_whole_body_and_darkens_what_lies_outside() {
             assert!(x.abs() < 1.0 && y.abs() < 1.0 && z > 0.0 && z < 1.0, "{light}: {vertex} at {x}, {y}, {z}");
         }
         let image = light_view(&lens, &view(), &tracer, &body, [96, 96]);
-        // Before the camera's near corners the floor is not in view at its left and right ends.
+        // The left and right ends of the floor near the camera are out of view.
         let outside = DVec3::new(-3.7, 0.0, 3.7);
         assert!(!body.contains(outside) && body.contains(DVec3::new(1.5, 0.0, -0.4)));
         let inside = brightness(&image, &lens, DVec3::new(1.5, 0.0, -0.4));

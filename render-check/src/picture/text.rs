@@ -8,7 +8,7 @@ pub(super) const LETTER: u32 = 8 * SCALE;
 
 const SCALE: u32 = 2;
 
-/// Writes a line of text with its top left corner at a place; what reaches out of the picture is cut off.
+/// Writes a line of text with its top left corner at a position, clipped to the picture.
 pub(super) fn write(image: &mut RgbImage, text: &str, left: u32, top: u32, colour: Rgb<u8>) {
     for (i, letter) in text.chars().enumerate() {
         let rows = BASIC_LEGACY.get(letter as usize).copied().unwrap_or(BASIC_LEGACY['?' as usize]);
@@ -23,7 +23,7 @@ pub(super) fn write(image: &mut RgbImage, text: &str, left: u32, top: u32, colou
     }
 }
 
-/// Writes a line in the bottom left corner, each letter on a dark ground so that it can be read over anything.
+/// Writes a line in the bottom left corner, on a dark ground so that it is readable over anything.
 pub(super) fn caption(image: &mut RgbImage, parts: &[(&str, Rgb<u8>)]) {
     const MARGIN: u32 = 6;
     let letters: usize = parts.iter().map(|(text, _)| text.chars().count()).sum();

@@ -1,6 +1,6 @@
-//! Pictures of a comparison: what was rendered, what is true, where the two differ, and how coarse the map is.
+//! Pictures of a comparison: the rendered image, the truth, their difference, and the aliasing of the map.
 //!
-//! A sample is a pixel here, so that a picture shows just what was compared.
+//! Not supersampled, so that a picture shows exactly the pixels that were compared.
 
 use image::{Rgb, RgbImage};
 use shadowfit::glam::DVec3;
@@ -14,10 +14,10 @@ use crate::scene::Mesh;
 use crate::trace::{Hit, Ray};
 use crate::verdict::{Mark, Truth, TruthImage};
 
-/// The scene as it looks with so much light in each pixel: as it was rendered, or as it is with [`TruthImage::lit`].
+/// The scene shaded with a lit fraction per pixel: the rendered one, or the true one of [`TruthImage::lit`].
 ///
-/// `lit` is the share of the light that arrives, 0 to 1, row by row from the top; pixels beyond its end are dark. Where
-/// the light does not reach a surface, whatever stands where, it plays no part. `mesh` is the one that was traced.
+/// `lit` is the lit fraction, 0 to 1, row by row from the top; pixels beyond its end are dark. It is ignored on
+/// surfaces that face away from the light or are out of its range. `mesh` is the one that was traced.
 #[must_use]
 pub fn shaded(truth: &TruthImage, lighting: &Lighting, mesh: &Mesh, lit: &[f32]) -> RgbImage {
     let eye = truth.view().eye();
@@ -35,7 +35,7 @@ pub fn shaded(truth: &TruthImage, lighting: &Lighting, mesh: &Mesh, lit: &[f32])
     })
 }
 
-/// Where the two differ: the pixels' marks in colours, over the true picture in dim greys.
+/// The difference: the pixels' marks in colours, over the true picture in dim greys.
 ///
 /// `true_picture` is what [`shaded`] makes of the truth; `marks` go row by row from the top.
 #[must_use]
@@ -58,7 +58,7 @@ pub fn difference(true_picture: &RgbImage, marks: &[Mark]) -> RgbImage {
     image
 }
 
-/// How bright the greys of the true picture are under the marks, at most.
+/// The largest brightness of the greys under the marks.
 const DIM: f32 = 0.16;
 
 const TEXT: Colour = [0.75, 0.75, 0.72];
@@ -73,8 +73,8 @@ fn colour_of(mark: Mark) -> Option<Colour> {
     }
 }
 
-/// How much larger a texel is than a pixel: blue where it is smaller, pale where it is as large, yellow, red and at last
-/// pink where it is larger. Pixels that are not compared, and those for which `aliasing` has no answer, are dark.
+/// The aliasing, texel size over pixel size: blue below 1, pale at 1, then yellow, red and pink above. Pixels that
+/// are not compared, and those for which `aliasing` returns `None`, are dark.
 #[must_use]
 pub fn aliasing_map(truth: &TruthImage, aliasing: impl Fn(DVec3) -> Option<f64>) -> RgbImage {
     let mut image = picture(truth.size(), |index, _| {
@@ -95,7 +95,7 @@ const NOT_COMPARED: Colour = [0.012, 0.013, 0.016];
 /// The logarithm of the aliasing at the ramp's lower end.
 const LEAST_LOG2: i32 = -3;
 
-/// The colours of aliasing, a power of two apart; below and above they stay the same.
+/// The colours of aliasing at successive powers of two, clamped at both ends.
 const RAMP: [Colour; 10] = [
     [0.02, 0.04, 0.45],
     [0.03, 0.14, 0.75],
@@ -115,9 +115,9 @@ fn ramp(aliasing: f64) -> Colour {
     mix(RAMP[lower], RAMP[lower + 1], (step - lower as f64) as f32)
 }
 
-/// The map as it was rendered: near is light, far is dark, whatever its clip space.
+/// The rendered map: near is light, far is dark, in every clip space.
 ///
-/// `depths` are those of [`crate::verdict::DrawnMap`]; texels beyond their end show as if nothing was drawn there.
+/// `depths` are those of [`crate::verdict::DrawnMap`]; texels beyond their end count as empty.
 #[must_use]
 pub fn stored_map(map: &Layout, depths: &[f32]) -> RgbImage {
     let (size, reversed) = (map.settings().map_size(), map.settings().clip().depth.is_reversed());
@@ -126,7 +126,7 @@ pub fn stored_map(map: &Layout, depths: &[f32]) -> RgbImage {
     DepthMap { size, depths }.to_image()
 }
 
-/// The maps of a light from left to right, with a line between.
+/// Images from left to right, with a line between.
 #[must_use]
 pub fn side_by_side(maps: &[RgbImage]) -> RgbImage {
     const LINE: u32 = 2;
@@ -141,8 +141,8 @@ pub fn side_by_side(maps: &[RgbImage]) -> RgbImage {
     image
 }
 
-/// Asks for the colour of each pixel by its index, row by row from the top, and its height in the picture: 0 at the
-/// bottom, 1 at the top.
+/// A picture from a function of pixel index, row by row from the top, and height in the picture: 0 at the bottom, 1
+/// at the top.
 fn picture([width, height]: [u32; 2], colour: impl Fn(usize, f32) -> Colour) -> RgbImage {
     RgbImage::from_fn(width, height, |x, y| {
         let index = y as usize * width as usize + x as usize;
@@ -207,7 +207,7 @@ mod tests {
         let truth = fake::truth(&SUN, &Tracer::new(&mesh).expect("it has triangles"));
         let map = fake::fitted(&SUN, &fake::settings());
         let image = aliasing_map(&truth, |point| map.aliasing(point));
-        // But for the caption.
+        // Above the caption.
         for (index, pixel) in truth.pixels().iter().enumerate().take(pixels_above_caption()) {
             let is_bright = brightness(&image, index) > 250;
             assert_eq!(is_bright, pixel.compared().is_some(), "pixel {index}");

@@ -1,4 +1,4 @@
-//! The camera's view of the scene, with the focus body over it.
+//! The camera's view of the scene, with the caster volume H drawn over it.
 
 use image::RgbImage;
 use shadowfit::View;
@@ -12,7 +12,7 @@ use super::text;
 use crate::output::progress;
 use crate::trace::{Lens, Tracer};
 
-/// Casts the camera's picture, lit and shadowed by one light, and draws the focus body's edges over it.
+/// Ray-casts the camera's picture, lit and shadowed by one light, and draws the edges of H over it.
 ///
 /// # Errors
 ///

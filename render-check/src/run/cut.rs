@@ -1,4 +1,4 @@
-//! Casters cut for paraboloid maps, which bend lines where a card draws them straight.
+//! Casters tessellated for paraboloid maps, which bend straight edges, while the rasteriser draws them straight.
 
 use std::time::{Duration, Instant};
 
@@ -11,46 +11,46 @@ use crate::gpu::{Geometry, Gpu};
 use crate::maps::BENT;
 use crate::scene::Mesh;
 
-/// Parts along each edge of a triangle that is cut by [`Cutting::Grid`].
+/// Segments per edge of a triangle tessellated by [`Cutting::Grid`].
 const PARTS: u32 = 8;
 
-/// Objects that are cut by [`Cutting::Grid`] are so long, as a part of the diagonal of the scene's box.
+/// The smallest diagonal of objects tessellated by [`Cutting::Grid`], relative to the scene's diagonal.
 const LARGE: f64 = 0.125;
 
-/// Triangles come out of a cut at most.
+/// The largest number of triangles after tessellation.
 const MOST: u32 = 1 << 22;
 
-/// How the triangles of casters are cut before they are drawn into paraboloids. What the camera sees is never cut.
+/// How casters are tessellated for paraboloid maps. The camera pass draws the original triangles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cutting {
-    /// As they are
+    /// Not tessellated
     None,
-    /// Each triangle of large objects in 8 x 8, as Brabec, Annen and Seidel cut the walls of their room
+    /// Each triangle of large objects in 8 x 8, as Brabec, Annen and Seidel do with the walls of their room
     Grid,
-    /// So finely that none of their edges is drawn more than half a texel from where it should be
+    /// Until every edge is drawn within half a texel of its true curve
     #[default]
     Bound,
 }
 
-/// Casters, cut.
+/// Tessellated casters.
 #[derive(Debug)]
 pub struct Cut {
-    /// All objects, in their order; those that are not drawn have no triangles.
+    /// All objects in their order; those that are not drawn have no triangles.
     pub mesh: Mesh,
-    /// The same on the card.
+    /// The same on the GPU.
     pub geometry: Geometry,
-    /// How long it took to cut them.
+    /// The time of tessellation.
     pub time: Duration,
 }
 
 impl Cut {
-    /// Cuts the objects of a mesh that are drawn into a paraboloid or its opposite, and uploads them about an origin; nothing
-    /// where nothing is to be cut.
+    /// Tessellates the objects that are drawn into a paraboloid or its opposite, and uploads them relative to an
+    /// origin; `None` for [`Cutting::None`].
     ///
     /// # Errors
     ///
-    /// When there would be too many triangles for the card, or for anybody.
+    /// When there would be too many triangles for memory or for the GPU.
     pub fn new(
         gpu: &Gpu,
         origin: DVec3,
@@ -79,16 +79,16 @@ fn kept(mesh: &Mesh, is_drawn: &[bool]) -> Vec<u32> {
     drawn.flat_map(|(object, _)| object.triangles.clone()).collect()
 }
 
-/// Triangles, in the order of those that they are pieces of.
+/// Triangles in the order of their source triangles.
 struct Pieces {
     vertices: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
-    /// Of each, the place in the list of kept triangles that it is a piece of.
+    /// For each triangle the index of its source in the list of kept triangles.
     sources: Vec<u32>,
 }
 
 impl Pieces {
-    /// A mesh of them, with the objects of the whole one.
+    /// A mesh of these triangles with the objects of the original.
     fn mesh(self, whole: &Mesh, kept: &[u32]) -> Mesh {
         let source = |piece: usize| kept[self.sources[piece] as usize];
         let objects = whole.objects.iter().map(|object| {
@@ -128,7 +128,7 @@ fn on_a_grid(mesh: &Mesh, kept: &[u32]) -> Pieces {
         if is_large {
             let first = pieces.vertices.len() as u32;
             let [a, b, c] = mesh.corners(triangle as usize);
-            // Sums of whole multiples come out the same from both sides of an edge.
+            // With integer weights both triangles at an edge compute the same vertices.
             pieces.vertices.extend(rows().map(|(i, j)| {
                 (a * f64::from(PARTS - i - j) + (b * f64::from(i) + c * f64::from(j))) / f64::from(PARTS)
             }));
@@ -147,7 +147,7 @@ fn on_a_grid(mesh: &Mesh, kept: &[u32]) -> Pieces {
     pieces
 }
 
-/// The vertices of a triangle's grid, as steps towards its second and its third corner, row by row.
+/// The vertices of a triangle's grid, row by row, as steps towards its second and third corner.
 fn rows() -> impl Iterator<Item = (u32, u32)> {
     (0..=PARTS).flat_map(|j| (0..=PARTS - j).map(move |i| (i, j)))
 }
@@ -178,7 +178,8 @@ mod tests {
             assert_eq!(one.triangles.len(), times * whole.triangles.len());
             assert!(if is_drawn { times == 1 || times == 64 } else { times == 0 }, "{times}");
             large += usize::from(times == 64);
-            // Each piece has a 64th of the area; squares of it weigh against a triangle left out for one twice there.
+            // Each piece has 1/64 of the area. Areas are squared so that a missing triangle cannot be offset by a
+            // duplicate.
             let [before, after] = [area(&mesh, whole.triangles.clone()), area(&cut, one.triangles.clone())];
             if times > 0 {
                 assert!(

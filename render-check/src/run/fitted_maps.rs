@@ -1,4 +1,4 @@
-//! The maps of one light, fitted as a renderer fits them: one for each part of the light that needs one.
+//! The maps of one light, fitted as in a renderer: one for each part of the light that needs one.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -19,20 +19,20 @@ use crate::maps::{Layout, NoMap, Split, map_or_reason, slices};
 use crate::scene::{Mesh, Object};
 use crate::stage::Stage;
 
-/// A map, and the casters that belong in it.
+/// A map with its casters.
 #[derive(Clone, Debug)]
 pub struct FittedMap {
     /// The map.
     pub map: Layout,
     /// How it is drawn.
     pub pass: MapPass,
-    /// The mesh's objects that are drawn into it, those that meet H.
+    /// The objects drawn into it: those that intersect H.
     pub objects: Vec<usize>,
 }
 
 impl FittedMap {
-    /// Fits a frustum as a renderer does, after that of the frame before, if there is one, and culls the casters against H;
-    /// or says why there is no map.
+    /// Fits a frustum, warm-started from the previous frame's map if there is one, and culls the casters against H;
+    /// or returns the reason for no map.
     fn new(
         stage: &Stage<'_>,
         focus: &Focus<'_>,
@@ -49,19 +49,19 @@ impl FittedMap {
     }
 }
 
-/// Fits a frustum, after that of the frame before, if there is one.
+/// Fits a frustum, warm-started from the previous frame's map if there is one.
 fn fitted(focus: &Focus<'_>, before: Option<&ShadowMap>, settings: &Settings) -> Outcome {
     before.map_or_else(|| focus.fit(settings), |before| focus.fit_warm(before, settings))
 }
 
-/// The objects that meet a body and are no others.
+/// The objects that intersect a convex body and pass a filter.
 fn casters(stage: &Stage<'_>, body: &ConvexBody, is_other: impl Fn(&Object) -> bool) -> Vec<usize> {
     let objects = stage.tracer.mesh().objects.iter().enumerate();
     let meets = |object: &Object| body.intersects_aabb(object.min, object.max) && is_other(object);
     objects.filter(|(_, object)| meets(object)).map(|(index, _)| index).collect()
 }
 
-/// Whether any of an object's box is before a plane, or behind it by no more than a distance.
+/// Whether any part of an object's box is in front of a plane, or at most `behind` behind it.
 fn is_before(plane: &Plane, behind: f64, object: &Object) -> bool {
     let farthest = DVec3::select(plane.normal.cmpgt(DVec3::ZERO), object.max, object.min);
     plane.at(farthest) >= -behind
@@ -70,42 +70,42 @@ fn is_before(plane: &Plane, behind: f64, object: &Object) -> bool {
 /// The maps of a light.
 #[derive(Clone, Debug)]
 pub struct FittedMaps {
-    /// Which map answers for which points.
+    /// Which map covers which points.
     pub split: Split,
-    /// The part of the light that each frustum is for; for paraboloids, the light.
+    /// The light of each frustum, such as a cube face; for paraboloids and cascades, the light itself.
     pub lights: Vec<Light>,
-    /// One for each part of the split; `None` for a part that needs none.
+    /// One map for each part of the split; `None` for a part that needs none.
     pub maps: Vec<Option<FittedMap>>,
-    /// The casters as they are drawn into paraboloids, where they are cut.
+    /// The tessellated casters of paraboloids, if any.
     pub cut: Option<Arc<Cut>>,
 }
 
-/// What culling against H left to draw, over all maps.
+/// The casters left by culling against H, over all maps.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Drawn {
-    /// Objects drawn; those in several maps count in each.
+    /// Objects drawn; an object in several maps counts in each.
     pub objects: usize,
-    /// Objects there are.
+    /// Objects in the scene.
     pub of_objects: usize,
-    /// Triangles drawn, as they are cut; those in several maps count in each.
+    /// Triangles drawn, after tessellation; a triangle in several maps counts in each.
     pub triangles: usize,
-    /// Triangles there are before any cut.
+    /// Triangles in the scene, before tessellation.
     pub of_triangles: usize,
-    /// How long it took to cut them for paraboloids, in milliseconds; nothing where they are not cut.
+    /// The time of tessellation, in milliseconds; `None` without tessellation.
     pub cut_ms: Option<f64>,
 }
 
 impl FittedMaps {
-    /// Fits each part of the light; or says why there is no map at all.
+    /// Fits each part of the light; or returns the reason for no map at all.
     ///
     /// # Errors
     ///
-    /// When the settings cannot be used, or casters cannot be cut.
+    /// When the settings are invalid, or casters cannot be tessellated.
     pub fn new(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
         Self::after(None, stage, light, options)
     }
 
-    /// The same after those of the frame before, if there are any.
+    /// The same, warm-started from the previous frame's maps if there are any.
     ///
     /// # Errors
     ///
@@ -133,7 +133,7 @@ impl FittedMaps {
                 Ok(map) => maps.push(Some(map)),
                 Err(none @ NoMap::Surrounded(_)) => return Ok(Err(none)),
                 Err(none) => {
-                    // Where one part has something to shade, nothing casts on it is what the light as a whole says.
+                    // If any part has receivers, the light as a whole lacks casters, not receivers.
                     if none == NoMap::Empty(Empty::NoCasters) {
                         reason = none;
                     }
@@ -161,7 +161,7 @@ impl FittedMaps {
         let mut maps = Vec::new();
         for map in fitted.maps() {
             let reach = (max - min).length() + map.far();
-            // As far behind the light as the border shows.
+            // As far behind the light as the map's border covers.
             let square = f64::from(map.clip_scale().length_squared()) / 2.0;
             let behind = (1.0 - square) / (1.0 + square) * reach;
             let objects = casters(stage, &body, |object| is_before(&map.clip_plane(), behind, object));
@@ -172,11 +172,11 @@ impl FittedMaps {
         Ok(Ok(Self::of(stage, split, vec![*light], maps, options.cut)?))
     }
 
-    /// Of maps that were fitted before, one for each part of a split; cuts what is drawn into paraboloids.
+    /// Takes fitted maps, one for each part of a split, and tessellates the casters of paraboloids.
     ///
     /// # Errors
     ///
-    /// When casters cannot be cut, or the card has no room for them.
+    /// When casters cannot be tessellated, or do not fit into GPU memory.
     pub fn of(
         stage: &Stage<'_>,
         split: Split,
@@ -189,7 +189,7 @@ impl FittedMaps {
         for &object in maps.iter().flatten().flat_map(|map| &map.objects) {
             is_drawn[object] = true;
         }
-        // The other hemisphere's map bends edges alike.
+        // The other hemisphere's map bends edges in the same way.
         let cut = match maps.iter().flatten().next().map(|map| &map.map) {
             Some(Layout::Paraboloid(map)) => Cut::new(stage.gpu, origin, mesh, &is_drawn, map, cutting)?,
             _ => None,
@@ -197,7 +197,7 @@ impl FittedMaps {
         Ok(Self { split, lights, maps, cut: cut.map(Arc::new) })
     }
 
-    /// The matrix's map of a part of the light, if it has one.
+    /// The frustum map of a part, if it has one.
     #[must_use]
     pub fn frustum(&self, part: usize) -> Option<&ShadowMap> {
         match &self.maps.get(part)?.as_ref()?.map {
@@ -206,20 +206,20 @@ impl FittedMaps {
         }
     }
 
-    /// Whether any of the maps was found elsewhere than at the one of the frame before, see [`ShadowMap::jumped`].
+    /// Whether any of the warm-started maps jumped, see [`ShadowMap::jumped`].
     #[must_use]
     pub fn jumped(&self) -> bool {
         (0..self.maps.len()).filter_map(|part| self.frustum(part)).any(ShadowMap::jumped)
     }
 
-    /// What the map of each part was fitted to; of paraboloids all that both were.
+    /// The focus of each part's map; for paraboloids one focus for both.
     #[must_use]
     pub fn foci(&self, stage: &Stage<'_>) -> Vec<Focus<'static>> {
         foci(stage, &self.split, &self.lights)
     }
 
-    /// Fits all again, after those of the frame before, if there are any, for the time that it takes; how many maps there
-    /// are.
+    /// Fits all maps again, warm-started from the previous frame's if there are any, to be timed; returns the
+    /// number of maps.
     #[must_use]
     pub fn fit_again(&self, before: Option<&Self>, stage: &Stage<'_>, settings: &Settings) -> usize {
         let is_paraboloid = self.maps.iter().flatten().any(|map| matches!(map.map, Layout::Paraboloid(_)));
@@ -245,7 +245,7 @@ impl FittedMaps {
     ///
     /// # Errors
     ///
-    /// When the card refuses.
+    /// When the GPU reports an error.
     pub fn draw(&self, stage: &Stage<'_>) -> Result<ShadowMaps> {
         let casters = self.casters_of_all(stage);
         ShadowMaps::draw(stage.gpu, self.geometry(stage), &self.split, &self.draws(&casters))
@@ -255,13 +255,13 @@ impl FittedMaps {
     ///
     /// # Errors
     ///
-    /// When the card refuses.
+    /// When the GPU reports an error.
     pub fn draw_again(&self, stage: &Stage<'_>, shadow_maps: &mut ShadowMaps) -> Result<()> {
         let casters = self.casters_of_all(stage);
         shadow_maps.draw_again(stage.gpu, self.geometry(stage), &self.draws(&casters))
     }
 
-    /// What is drawn for each part.
+    /// The draw parameters of each part.
     fn draws<'a>(&'a self, casters: &'a [Vec<Range<u32>>]) -> Vec<Option<MapDraw<'a>>> {
         let of = |(map, casters): (&'a Option<FittedMap>, &'a Vec<_>)| {
             map.as_ref().map(|FittedMap { map, pass, .. }| MapDraw { map, casters, pass: *pass })
@@ -269,29 +269,29 @@ impl FittedMaps {
         self.maps.iter().zip(casters).map(of).collect()
     }
 
-    /// The triangles of what is drawn for each part.
+    /// The casters' triangles of each part.
     fn casters_of_all(&self, stage: &Stage<'_>) -> Vec<Vec<Range<u32>>> {
         let of = |map: &Option<FittedMap>| map.as_ref().map(|map| self.casters(stage, map)).unwrap_or_default();
         self.maps.iter().map(of).collect()
     }
 
-    /// What is drawn of, on the card.
+    /// The casters' geometry on the GPU.
     fn geometry<'a>(&'a self, stage: &'a Stage<'a>) -> &'a Geometry {
         self.cut.as_ref().map_or(&stage.geometry, |cut| &cut.geometry)
     }
 
-    /// The triangles of what is drawn into a map.
+    /// The casters' triangles of a map.
     fn casters(&self, stage: &Stage<'_>, map: &FittedMap) -> Vec<Range<u32>> {
         let mesh = self.mesh(stage);
         map.objects.iter().map(|&object| mesh.objects[object].triangles.clone()).collect()
     }
 
-    /// What is drawn of.
+    /// The casters' mesh.
     fn mesh<'a>(&'a self, stage: &Stage<'a>) -> &'a Mesh {
         self.cut.as_ref().map_or(stage.tracer.mesh(), |cut| &cut.mesh)
     }
 
-    /// What belongs in the maps.
+    /// The numbers of casters drawn.
     #[must_use]
     pub fn drawn(&self, stage: &Stage<'_>) -> Drawn {
         let casters = || self.maps.iter().flatten().flat_map(|map| self.casters(stage, map));
@@ -305,8 +305,8 @@ impl FittedMaps {
     }
 }
 
-/// The parts of a light that have a map each, and which points belong to which; one light for all slices. A light that needs
-/// no cube around it, a sun or a spot, has one map whatever the technique.
+/// The parts of a light with a map each; cascades share one light. Suns and spots, which need no cube, have one map
+/// with every technique.
 fn parts(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<(Split, Vec<Light>)> {
     if let Some(slicing) = options.slicing {
         let cuts = slicing.cuts(options.technique.stays_put());
@@ -324,7 +324,7 @@ fn parts(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<(Split, 
     }
 }
 
-/// What the map of each part is fitted to.
+/// The focus of each part.
 fn foci(stage: &Stage<'_>, split: &Split, lights: &[Light]) -> Vec<Focus<'static>> {
     match split {
         Split::Directions { .. } => {

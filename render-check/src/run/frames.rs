@@ -1,4 +1,4 @@
-//! Frame after frame of the same maps.
+//! Successive frames of the same maps, for timing.
 
 use std::time::Duration;
 
@@ -8,7 +8,7 @@ use super::fitted_maps::FittedMaps;
 use crate::gpu::{Filter, ShadowMaps, Shadows, shadow_test};
 use crate::stage::Stage;
 
-/// The maps of a light, drawn and read again and again in memory of their own, as a renderer does.
+/// The maps of a light with GPU memory of their own, drawn and tested every frame as in a renderer.
 pub struct Frames<'a> {
     stage: &'a Stage<'a>,
     fitted: &'a FittedMaps,
@@ -16,20 +16,20 @@ pub struct Frames<'a> {
     shadow_maps: ShadowMaps,
 }
 
-/// What came of a frame.
+/// The results of a frame.
 pub struct Frame {
-    /// How long the card took for the maps, where it has a clock.
+    /// GPU time of the maps, where timestamps are supported.
     pub shadow_maps: Option<Duration>,
-    /// What the shadow test says, and how long that took.
+    /// The result of the shadow test, and its time.
     pub shadows: Shadows,
 }
 
 impl<'a> Frames<'a> {
-    /// Draws the maps once, before any frame, so that their memory is there and has been written to.
+    /// Draws the maps once, so that their memory is allocated and written before the first frame.
     ///
     /// # Errors
     ///
-    /// When the card refuses.
+    /// When the GPU reports an error.
     pub fn new(stage: &'a Stage<'a>, fitted: &'a FittedMaps, filter: Filter) -> Result<Self> {
         Ok(Self { stage, fitted, filter, shadow_maps: fitted.draw(stage)? })
     }
@@ -38,7 +38,7 @@ impl<'a> Frames<'a> {
     ///
     /// # Errors
     ///
-    /// When the card refuses.
+    /// When the GPU reports an error.
     pub fn draw(&mut self) -> Result<Frame> {
         self.fitted.draw_again(self.stage, &mut self.shadow_maps)?;
         let shadows = shadow_test(self.stage.gpu, &self.stage.surfaces, &self.shadow_maps, self.filter)?;
@@ -49,7 +49,7 @@ impl<'a> Frames<'a> {
     ///
     /// # Errors
     ///
-    /// When the card refuses.
+    /// When the GPU reports an error.
     pub fn depths(&self) -> Result<Vec<Vec<f32>>> {
         self.shadow_maps.depths(self.stage.gpu)
     }
@@ -90,7 +90,7 @@ mod tests {
         };
         let once = of_round(&mut frames);
         assert!(once == of_round(&mut frames));
-        // They are three maps, not one.
+        // The three maps differ.
         assert!(once[0].1 != once[2].1 && once[0].0 != once[2].0);
     }
 }

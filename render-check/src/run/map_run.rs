@@ -1,4 +1,4 @@
-//! One run: one light, fitted in one way, drawn on the card and held against the truth.
+//! A run: one light with one technique, drawn on the GPU and compared with ray-traced truth.
 
 use std::time::Duration;
 
@@ -19,38 +19,38 @@ use crate::verdict::{self, DrawnMap, Projection, Rendered, Verdict};
 /// Median times.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Times {
-    /// Of the fits of all maps, on the processor, in microseconds.
+    /// CPU time of fitting all maps, in microseconds.
     pub fit_us: f64,
-    /// Of the shadow maps' passes, by the card's clock, in milliseconds; nothing where it has none.
+    /// GPU time of the shadow maps' passes, in milliseconds; `None` without timestamps.
     pub shadow_map_ms: Option<f64>,
-    /// Of the camera's pass.
+    /// GPU time of the camera pass.
     pub camera_ms: Option<f64>,
-    /// Of the shadow test.
+    /// GPU time of the shadow test.
     pub shadow_test_ms: Option<f64>,
 }
 
-/// What came of a run with maps.
+/// The results of a run with maps.
 pub struct MapRun {
     /// The maps, and which answers for which points.
     pub fitted: FittedMaps,
-    /// The depths of each map that is drawn, as stored, row by row from the top.
+    /// The stored depths of each map, row by row from the top.
     pub depths: Vec<Vec<f32>>,
-    /// The share of light that reaches each pixel.
+    /// The lit fraction of each pixel.
     pub lit: Vec<f32>,
-    /// The share of the compared pixels where virtual samples decided; nothing with a filter that has none.
+    /// The share of the compared pixels that virtual samples decided; `None` with filters that use none.
     pub used_plane: Option<f64>,
-    /// What was drawn.
+    /// The numbers of casters drawn.
     pub drawn: Drawn,
-    /// How long it took.
+    /// The times.
     pub times: Times,
-    /// What the fit says of it.
+    /// The predicted aliasing.
     pub prediction: Prediction,
-    /// How it compares with the truth.
+    /// The comparison with ray-traced truth.
     pub verdict: Verdict,
 }
 
 impl MapRun {
-    /// How much larger a texel is than a pixel at a point, in the map that answers for it; `None` where none does.
+    /// The aliasing at a point, in the map that covers it; `None` where there is no map.
     #[must_use]
     pub fn aliasing(&self, point: DVec3) -> Option<f64> {
         let fitted = self.fitted.maps[self.fitted.split.part_of(point)].as_ref()?;
@@ -58,11 +58,11 @@ impl MapRun {
     }
 }
 
-/// Runs one light through one technique; or says why there is no map.
+/// Runs one light with one technique; or returns the reason for no map.
 ///
 /// # Errors
 ///
-/// When the settings cannot be used or the card refuses.
+/// When the settings are invalid or the GPU reports an error.
 pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<Result<MapRun, NoMap>> {
     let fitted = match FittedMaps::new(stage, &light.light, options)? {
         Ok(fitted) => fitted,
@@ -70,16 +70,16 @@ pub fn run(stage: &Stage<'_>, light: &StageLight, options: &Options) -> Result<R
     };
     let settings = options.settings(stage)?;
     let fit_all = || fitted.fit_again(None, stage, &settings);
-    // A fit takes a few hundred times less than a frame.
+    // A fit is a few hundred times faster than a frame, so it is repeated more often.
     let fit_time = median_time(300 * options.frames as usize - 299, fit_all);
     Ok(Ok(run_fitted(stage, light, options, fitted, fit_time)?))
 }
 
-/// Draws, tests and judges maps that are fitted already, in the time that is given.
+/// Draws, tests and judges fitted maps; `fit_time` is the time that their fit took.
 ///
 /// # Errors
 ///
-/// When the card refuses.
+/// When the GPU reports an error.
 pub fn run_fitted(
     stage: &Stage<'_>,
     light: &StageLight,
@@ -108,7 +108,7 @@ pub fn run_fitted(
     Ok(MapRun { fitted, depths, lit, used_plane, drawn, times, prediction, verdict })
 }
 
-/// Holds what was drawn against the truth.
+/// Compares the rendered image with the truth.
 fn judged(
     stage: &Stage<'_>,
     light: &StageLight,
@@ -144,7 +144,7 @@ fn judged(
     verdict::judge(&light.truth, &rendered, stage.tracer)
 }
 
-/// Nothing where the card has no clock.
+/// `None` without timestamps.
 fn median_ms(times: Vec<Option<Duration>>) -> Option<f64> {
     let mut times: Vec<Duration> = times.into_iter().flatten().collect();
     times.sort_unstable();

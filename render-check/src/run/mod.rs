@@ -1,4 +1,4 @@
-//! One light through one kind of map: fitted, culled, drawn, tested, judged, and what is reported of it.
+//! Runs: one light with one technique, fitted, culled, drawn, tested, judged and reported.
 
 mod cut;
 mod fitted_maps;

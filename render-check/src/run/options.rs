@@ -1,4 +1,4 @@
-//! How a light's maps are fitted, drawn and read.
+//! The options of a run: how a light's maps are fitted, drawn and filtered.
 
 use anyhow::{Context, Result};
 use shadowfit::{DepthFormat, Settings};
@@ -9,35 +9,35 @@ use crate::maps::{ClipConvention, Layout, Slicing, Technique};
 use crate::stage::Stage;
 use crate::trace::Faces;
 
-/// How a light's maps are fitted, drawn and read.
+/// The options of a run: how a light's maps are fitted, drawn and filtered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// How its texels are spread.
+    /// The technique.
     pub technique: Technique,
     /// Texels along each side.
     pub map_size: u32,
-    /// How the view is cut into slices with a map each; not at all without.
+    /// The cascades; `None` for a single map.
     pub slicing: Option<Slicing>,
-    /// Whose clip space its matrix is for.
+    /// The clip space of the matrix.
     pub clip: ClipConvention,
     /// The depth buffer's format.
     pub format: DepthFormat,
-    /// Which sides of triangles are drawn.
+    /// Which faces are drawn.
     pub faces: Faces,
-    /// How it is read.
+    /// The filter.
     pub filter: Filter,
-    /// What is drawn for the points of clouds.
+    /// How points of clouds are drawn.
     pub points: Points,
-    /// How casters are cut for paraboloids.
+    /// How casters are tessellated for paraboloids.
     pub cut: Cutting,
-    /// What is added to depth; `None` for what the map says that the filter needs, see [`Layout::bias`].
+    /// The depth bias; `None` for the map's own, see [`Layout::bias`].
     pub bias: Option<Bias>,
-    /// How often it is drawn and read, for the median of the times.
+    /// Frames drawn; times are medians over them.
     pub frames: u32,
 }
 
 impl Options {
-    /// An unwarped or warped map for wgpu's clip space, 24 bits deep, its nearest texel read, drawn once.
+    /// This technique and size with defaults: wgpu's clip space, 24 bits of depth, nearest texel, one frame.
     #[must_use]
     pub fn new(technique: Technique, map_size: u32) -> Self {
         Self {
@@ -55,18 +55,18 @@ impl Options {
         }
     }
 
-    /// The technique and the size of its maps in words.
+    /// Technique and map size in words.
     #[must_use]
     pub fn name(&self) -> String {
         let times = self.slicing.map_or_else(String::new, |slicing| format!("{} x ", slicing.count));
         format!("{} {times}{}", self.technique, self.map_size)
     }
 
-    /// How a map is drawn: without a bias for second depth, layers and virtual samples, which do without.
+    /// How a map is drawn; second depth, layers and virtual samples get no bias, as they need none.
     ///
     /// # Errors
     ///
-    /// When the filter reaches nowhere.
+    /// When the filter's reach is invalid.
     pub fn pass(&self, map: &Layout) -> Result<MapPass> {
         let (bias, (receiver, relative)) = match (self.bias, self.faces, self.filter) {
             (Some(bias), ..) => (bias, (0.0, 0.0)),
@@ -79,17 +79,17 @@ impl Options {
         Ok(MapPass { format: self.format, faces: self.faces, bias, receiver, relative, points: self.points })
     }
 
-    /// As many texels around what is visible as the filter reaches.
+    /// The border around the receivers that the filter needs, in texels.
     #[must_use]
     pub fn border(&self) -> u32 {
         self.filter.reach().ceil() as u32
     }
 
-    /// How a map is fitted.
+    /// The settings of the fit.
     ///
     /// # Errors
     ///
-    /// When the sizes cannot be used, or the border leaves no room.
+    /// When the sizes are invalid, or the border leaves no room.
     pub fn settings(&self, stage: &Stage<'_>) -> Result<Settings> {
         let settings = Settings::new(self.map_size, stage.size[1]).context("the sizes cannot be used")?;
         let settings = settings.with_border(self.border()).context("the filter is too wide for so small a map")?;

@@ -1,4 +1,4 @@
-//! A scene as the planner wants it, and a light's plan as what is drawn.
+//! Converts a scene to the planner's objects, and a light's plan to maps to draw.
 
 use anyhow::{Context, Result};
 use shadowfit::{
@@ -17,13 +17,13 @@ use crate::scene::{self, Mesh};
 use crate::stage::Stage;
 use crate::trace::Faces;
 
-/// The box around an object of a mesh, no smaller in f32 than it is.
+/// The bounding box of an object, rounded outwards to f32.
 #[must_use]
 pub fn bounds(object: &scene::Object) -> Aabb {
     Aabb::new(object.min, object.max)
 }
 
-/// The objects of a mesh for the planner, in their order. All of them cast and receive.
+/// The objects of a mesh for the planner, in their order. All of them are casters and receivers.
 ///
 /// # Errors
 ///
@@ -45,17 +45,17 @@ pub fn objects(mesh: &Mesh) -> Result<Objects> {
     Objects::new(&objects).context("the scene's extent cannot be used")
 }
 
-/// The sides that a test wants drawn.
+/// The faces to draw for a depth test.
 #[must_use]
 pub fn faces(test: DepthTest) -> Faces {
     match test {
         DepthTest::Second => Faces::Second,
-        // The planner asks for no middle of layers.
+        // The planner never chooses to test between layers.
         DepthTest::First | DepthTest::BetweenLayers => Faces::All,
     }
 }
 
-/// A filter as the harness has it, by virtual samples or not.
+/// The corresponding filter of this crate, with virtual samples or without.
 #[must_use]
 pub fn filter(filter: shadowfit::Filter, virtual_samples: bool) -> Filter {
     use shadowfit::Filter as Planned;
@@ -70,7 +70,7 @@ pub fn filter(filter: shadowfit::Filter, virtual_samples: bool) -> Filter {
     }
 }
 
-/// How the maps of a light are drawn and read, as its plan has it, so many times.
+/// The options of a planned light, for this number of frames.
 #[must_use]
 pub fn options(of_light: &LightPlan, format: DepthFormat, points: Points, frames: u32) -> Options {
     let map_size = of_light.passes().iter().map(|pass| pass.map_size()).max().unwrap_or(0);
@@ -80,17 +80,17 @@ pub fn options(of_light: &LightPlan, format: DepthFormat, points: Points, frames
         filter: filter(of_light.filter(), of_light.virtual_samples()),
         points,
         frames,
-        // A plan has paraboloids only for what is cut finely enough as it is.
+        // A plan uses paraboloids only for casters that need no tessellation.
         cut: Cutting::None,
         ..Options::new(technique(of_light), map_size)
     }
 }
 
-/// The technique that comes nearest to a plan.
+/// The technique closest to a plan.
 fn technique(of_light: &LightPlan) -> Technique {
     let of_pass = |pass: &shadowfit::plan::Pass| match pass.projection() {
         Projection::Frustum(map) => Technique::of(map.settings()),
-        // Each face has the warp that is the better for it.
+        // Faces may have different warps, as the plan chooses one for each.
         Projection::Face(_, map) => match Technique::of(map.settings()) {
             Technique::Uniform => Technique::Cube,
             Technique::Stable => Technique::CubeStable,
@@ -102,7 +102,7 @@ fn technique(of_light: &LightPlan) -> Technique {
     of_passes.reduce(|one, other| if one == Technique::Cube { other } else { one }).unwrap_or(Technique::Uniform)
 }
 
-/// How a pass of a plan is drawn: with its bias, and as `options` say besides.
+/// How a pass of a plan is drawn: with the plan's bias, and otherwise by `options`.
 fn drawn(pass: &shadowfit::plan::Pass, options: &Options) -> MapPass {
     let Options { format, faces, points, .. } = *options;
     let none = MapPass { format, faces, bias: Bias::NONE, receiver: 0.0, relative: 0.0, points };
@@ -115,12 +115,12 @@ fn drawn(pass: &shadowfit::plan::Pass, options: &Options) -> MapPass {
 }
 
 impl FittedMaps {
-    /// The maps of a light as a plan has them: its matrices, its casters and its bias, drawn as `options` say besides;
-    /// `None` where it has no map.
+    /// The maps of a planned light, with the plan's matrices, casters and bias, and otherwise by `options`; `None`
+    /// where the plan has no map.
     ///
     /// # Errors
     ///
-    /// When a face of a cube cannot be made, or the card has no room.
+    /// When a cube face cannot be built, or GPU memory does not suffice.
     pub fn planned(
         stage: &Stage<'_>,
         plan: &Plan,
@@ -159,11 +159,11 @@ impl FittedMaps {
     }
 }
 
-/// The faces of the cube around a lamp, each as a light of its own.
+/// The cube faces of a point light, each as a light of its own.
 ///
 /// # Errors
 ///
-/// When the light is no lamp that shines all around.
+/// When the light is not a point light.
 pub fn cube_faces(light: &Light, filter: Filter, map_size: u32, border: u32) -> Result<Vec<Light>> {
     let overlap = CubeFace::overlap(filter.reach(), map_size, border);
     let faces = CubeFace::ALL.map(|face| light.cube_face(face, overlap));

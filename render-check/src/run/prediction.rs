@@ -1,4 +1,4 @@
-//! What the fit says of maps before anything is drawn, and what no maps could be better than.
+//! The aliasing that a fit predicts, and its lower bound.
 
 use serde::Serialize;
 use shadowfit::{Focus, Light, Settings};
@@ -6,19 +6,19 @@ use shadowfit::{Focus, Light, Settings};
 use super::fitted_maps::FittedMaps;
 use crate::stage::Stage;
 
-/// How much larger a texel is than a pixel, see [`shadowfit::ShadowMap::aliasing`], at worst over all that may be visible.
+/// The worst aliasing over the receiver volume, texel size over pixel size, see [`shadowfit::ShadowMap::aliasing`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Prediction {
-    /// What it is somewhere, the largest over all maps; nothing for paraboloids.
+    /// A value that is attained somewhere, the largest over all maps; `None` for paraboloids.
     pub predicted: Option<f64>,
-    /// What it is nowhere more than.
+    /// An upper bound.
     pub predicted_at_most: Option<f64>,
-    /// What it would be at least, however the texels of all these maps were spread.
+    /// A lower bound for any parameterization with the same number of texels.
     pub limit: f64,
 }
 
 impl Prediction {
-    /// Of the maps of a light.
+    /// The prediction for the maps of a light.
     #[must_use]
     pub fn new(fitted: &FittedMaps, stage: &Stage<'_>, light: &Light) -> Self {
         let foci = fitted.foci(stage);
@@ -37,7 +37,8 @@ impl Prediction {
     }
 }
 
-/// The limit for all of a light with the texels of so many maps: it goes with one over the root of their number.
+/// The lower bound for a light with the texels of several maps: it is proportional to one over the root of their
+/// number.
 fn limit(stage: &Stage<'_>, light: &Light, settings: &Settings, maps: usize) -> f64 {
     let focus = Focus::new(&stage.fitted_view, light, &stage.bounds);
     focus.aliasing_lower_bound(settings) / (maps as f64).sqrt()

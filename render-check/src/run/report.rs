@@ -1,4 +1,4 @@
-//! What programs read: a run's results as JSON.
+//! The results of a run, as written to JSON.
 
 use serde::Serialize;
 use shadowfit::glam::DVec3;
@@ -16,13 +16,13 @@ use crate::verdict::Verdict;
 /// The camera of a report.
 #[derive(Clone, Debug, Serialize)]
 pub struct CameraReport {
-    /// Where it is, in world space.
+    /// Position, in world space.
     pub eye: [f64; 3],
-    /// Where it looks, of length one.
+    /// View direction, of unit length.
     pub forward: [f64; 3],
     /// The near plane's distance, in world units.
     pub near: f64,
-    /// The far plane's distance; nothing where it is infinite.
+    /// The far plane's distance; `None` where it is infinite.
     pub far: Option<f64>,
 }
 
@@ -40,26 +40,26 @@ impl From<&View> for CameraReport {
 /// One run.
 #[derive(Clone, Debug, Serialize)]
 pub struct RunReport {
-    /// The light, as the command line spells it.
+    /// The light, in the command line's spelling.
     pub light: String,
-    /// What the camera's perspective makes of it.
+    /// Its class: where the camera's perspective maps the light.
     pub class: String,
-    /// How the texels are spread.
+    /// The technique.
     pub technique: Technique,
     /// Texels along each side.
     pub map_size: u32,
-    /// How the view is cut into slices; nothing where it is not.
+    /// How the view is split into cascades; `None` where it is not.
     pub slicing: Option<Slicing>,
-    /// Whose clip space the matrix is for.
+    /// The clip space of the matrix.
     pub clip: ClipConvention,
-    /// How the map is read.
+    /// The filter.
     pub filter: Filter,
-    /// What came of it.
+    /// The result.
     #[serde(flatten)]
     pub result: RunResult,
 }
 
-/// What came of a run.
+/// The result of a run.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub enum RunResult {
@@ -67,34 +67,34 @@ pub enum RunResult {
     Maps(Box<MapsReport>),
     /// No map.
     NoMap {
-        /// The crate's own words.
+        /// The crate's reason.
         no_map: String,
-        /// Pixels that are in shadow in truth, where the crate said that no shadow needs a map.
+        /// Pixels that are in shadow by the truth although the crate reported that no map is needed.
         missing: usize,
     },
 }
 
-/// What came of maps.
+/// The result of a run with maps.
 #[derive(Clone, Debug, Serialize)]
 pub struct MapsReport {
-    /// How many maps were drawn, a pass each.
+    /// Maps drawn, one pass each.
     pub passes: usize,
-    /// How many parts of the light were left out, as nothing there needs a map.
+    /// Parts of the light that need no map.
     pub left_out: usize,
     /// The texels of all maps.
     pub texels: u64,
     /// Each map that was drawn.
     pub maps: Vec<MapReport>,
-    /// What was drawn into them.
+    /// The numbers of casters drawn.
     pub drawn: Drawn,
-    /// The share of the compared pixels where virtual samples decided; nothing with a filter that has none.
+    /// The share of the compared pixels that virtual samples decided; `None` with filters that use none.
     pub used_plane: Option<f64>,
-    /// How long it took.
+    /// The times.
     pub times: Times,
-    /// What the fit says of them.
+    /// The predicted aliasing.
     #[serde(flatten)]
     pub prediction: Prediction,
-    /// How they compare with the truth.
+    /// The comparison with ray-traced truth.
     #[serde(flatten)]
     pub verdict: Verdict,
 }
@@ -102,15 +102,15 @@ pub struct MapsReport {
 /// One map.
 #[derive(Clone, Debug, Serialize)]
 pub struct MapReport {
-    /// The middle direction of the part of the light that it is for; zeros for all of the light.
+    /// The axis of its part of the light; zero for the whole light.
     pub axis: [f64; 3],
-    /// The depths before the eye that it is for, from and to; nothing for all, and infinite as nothing.
+    /// The depth range of its cascade; `None` without cascades, and `null` for an infinite end.
     pub depths: Option<[f64; 2]>,
-    /// How far the warp's camera moved back, in world units; nothing for a paraboloid.
+    /// The back-shift of the virtual camera, in world units; `None` for a paraboloid.
     pub shift: Option<f64>,
-    /// How much of the warp is left out, see [`shadowfit::ShadowMap::weakening`]; nothing for a paraboloid.
+    /// How much the warp was weakened, see [`shadowfit::ShadowMap::weakening`]; `None` for a paraboloid.
     pub weakening: Option<f64>,
-    /// Why it has no warp although one was asked for.
+    /// Why the fit fell back to a uniform map, if it did.
     pub refusal: Option<String>,
     /// How the map was drawn.
     pub pass: MapPass,
@@ -156,7 +156,7 @@ impl MapsReport {
 }
 
 impl RunReport {
-    /// Of a run.
+    /// The report of a run.
     #[must_use]
     pub fn new(view: &View, light: &StageLight, options: &Options, run: &Result<MapRun, NoMap>) -> Self {
         let result = match run {
@@ -165,7 +165,7 @@ impl RunReport {
                 no_map: none.to_string(),
                 missing: match none {
                     NoMap::Empty(_) => light.truth.shadowed(),
-                    // An answer that promises nothing: other maps serve.
+                    // This reason does not claim that no map is needed: other kinds of maps are.
                     NoMap::Surrounded(_) => 0,
                 },
             },
@@ -182,7 +182,7 @@ impl RunReport {
         }
     }
 
-    /// Pixels that are lit because a caster was clipped or culled, or because there is no map though there should be.
+    /// Pixels that are lit because a caster was clipped or culled, or because a map is missing.
     #[must_use]
     pub fn missing(&self) -> usize {
         match &self.result {

@@ -1,12 +1,12 @@
-//! How long calls take.
+//! Timing of calls.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-/// How long fits are timed at most.
+/// The time limit for repeated calls.
 const TIMING_BUDGET: Duration = Duration::from_millis(100);
 
-/// The median time of so many calls, or of fewer where they take long.
+/// The median time of `most` calls, or of fewer where they take long.
 #[must_use]
 pub fn median_time<T>(most: usize, call: impl Fn() -> T) -> Duration {
     let begin = Instant::now();

@@ -1,5 +1,5 @@
-//! The numbers in a binary glTF file. The `gltf` crate's own readers panic on accessors that lie about their extent,
-//! so the bounds are checked here.
+//! Accessors of binary glTF files. The `gltf` crate's readers panic on accessors that exceed their buffer, so the
+//! bounds are checked here.
 
 use anyhow::{Result, bail, ensure};
 use gltf::Accessor;
@@ -26,7 +26,7 @@ pub(super) fn read_indices(accessor: &Accessor, binary: &[u8]) -> Result<Vec<u32
     }
 }
 
-/// The elements of an accessor; `read` gets slices of exactly an element's size.
+/// The elements of an accessor; `read` gets slices of exactly one element's size.
 fn read_elements<T>(accessor: &Accessor, binary: &[u8], read: impl Fn(&[u8]) -> T) -> Result<Vec<T>> {
     ensure!(accessor.sparse().is_none(), "sparse accessors are not read: export without them");
     let Some(view) = accessor.view() else {

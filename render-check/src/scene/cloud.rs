@@ -1,4 +1,4 @@
-//! Clouds of points as surfaces: each point becomes a small disc of the surface that it was taken from.
+//! Point clouds as surfaces: each point becomes a small disc in the plane fitted to its neighbours.
 
 use parry3d_f64::math::{Matrix, SymmetricEigen};
 use rayon::prelude::*;
@@ -10,16 +10,16 @@ use shadowfit::glam::{DMat3, DVec3};
 pub struct Disc {
     /// The point.
     pub centre: DVec3,
-    /// The unit normal, on the side that is up; which side is outside a cloud does not say.
+    /// The unit normal, oriented upwards, as a point cloud does not tell inside from outside.
     pub normal: DVec3,
-    /// In world units.
+    /// The radius, in world units.
     pub radius: f64,
 }
 
-/// So many neighbours say how the surface lies.
+/// Neighbours that the plane is fitted to.
 const NEIGHBOURS: usize = 8;
 
-/// The neighbour whose distance says how far apart points are: in a square grid, the last of those next to a point.
+/// The neighbour whose distance is the spacing: in a square grid, the last of those next to a point.
 const LAST_BESIDE: usize = 4;
 
 impl Disc {
@@ -44,9 +44,9 @@ impl Disc {
 
     /// The disc of a point among its neighbours, nearest first; `None` where there are too few of them.
     ///
-    /// Its normal is the direction in which the points spread least (Hoppe et al. 1992, §3.2). The points of a square grid
-    /// of spacing s are no farther than s/√2 from any place of the grid, so that discs of that radius leave no hole; what
-    /// is drawn is a hexagon, √3/2 of the radius wide at the middles of its sides, so that the radius is s·√(2/3).
+    /// Its normal is the direction of least variance (Hoppe et al. 1992, §3.2). No place of a square grid of
+    /// spacing s is farther than s/√2 from a point, so discs of that radius leave no hole; as a hexagon is drawn,
+    /// whose inradius is √3/2 of its radius, the radius is s·√(2/3).
     fn among(centre: DVec3, neighbours: &[DVec3]) -> Option<Self> {
         let spacing = neighbours.get(LAST_BESIDE - 1)?.distance(centre);
         let points = || neighbours.iter().chain([&centre]);
@@ -57,7 +57,7 @@ impl Disc {
             sum + DMat3::from_cols(off * off.x, off * off.y, off * off.z)
         });
         let eigen = SymmetricEigen::new(Matrix::from_cols_array(&spread.to_cols_array()));
-        // Points in a row spread in one direction only, and all across it are as good.
+        // Collinear points have variance in one direction only, which leaves the normal undetermined.
         let in_row = eigen.eigenvalues.y < 1e-9 * eigen.eigenvalues.z;
         let normal = match in_row {
             true => (neighbours[0] - centre).normalize().any_orthonormal_vector(),
@@ -68,8 +68,8 @@ impl Disc {
     }
 }
 
-/// The discs of a cloud's points, all of them finite. Points in one place become one disc each; those with too few others
-/// in other places have none.
+/// The discs of a cloud's points, which must be finite. Coincident points have one disc each; points with too few
+/// distinct neighbours have none.
 #[must_use]
 pub(super) fn discs(points: &[DVec3]) -> Vec<Disc> {
     let tree = RTree::bulk_load(points.iter().map(DVec3::to_array).collect());
@@ -82,7 +82,7 @@ pub(super) fn discs(points: &[DVec3]) -> Vec<Disc> {
     points.par_iter().filter_map(disc).collect()
 }
 
-/// Sorts discs into groups that lie close together, of `most` at most, and hands over each.
+/// Groups discs by proximity into at most `most` each, and passes each group on.
 pub(super) fn grouped(discs: &mut [Disc], most: usize, each: &mut impl FnMut(&[Disc])) {
     if discs.len() <= most {
         return each(discs);
@@ -119,7 +119,7 @@ mod tests {
             for disc in &discs {
                 assert!(disc.normal.dot(normal) > 1.0 - 1e-9, "{disc:?}");
             }
-            // Of a disc in the middle: its hexagon holds all that is nearer to it than to another.
+            // A disc in the middle: its hexagon covers everything nearer to it than to another.
             let disc = discs[10 * 21 + 10];
             assert!((disc.radius / spacing - (2.0_f64 / 3.0).sqrt()).abs() < 1e-9, "{disc:?}");
             let corners = disc.hexagon();
@@ -140,7 +140,7 @@ mod tests {
         points.extend([points[0]; 20]);
         let discs = discs(&points);
         assert_eq!(discs.len(), points.len());
-        // A row of points has no normal of its own.
+        // Collinear points have no normal.
         let row: Vec<DVec3> = (0..30).map(|i| DVec3::X * f64::from(i)).collect();
         for disc in super::discs(&row) {
             assert!(disc.normal.is_normalized() && disc.normal.x.abs() < 1e-6, "{disc:?}");

@@ -1,37 +1,37 @@
-//! Sound scenes made faulty, in the ways that files are.
+//! Scenes damaged in the ways that files are.
 
 use shadowfit::glam::{DMat4, DVec3, Vec3};
 
 use super::loaded::LoadedScene;
 use super::mesh::{Mesh, MeshBuilder, Object, Part};
 
-/// What is wrong with a scene.
+/// A kind of damage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// Triangles without area among the others: a corner three times, twice, and three corners in a line.
+    /// Degenerate triangles among the others: a corner three times, a corner twice, and three collinear corners.
     WithoutArea,
-    /// Every fifth triangle is there again, beginning at another corner.
+    /// Every fifth triangle is duplicated, starting at another corner.
     Twice,
-    /// Triangles whose indices have no vertex.
+    /// Triangles with indices beyond the vertices.
     BeyondVertices,
-    /// Parts without triangles, and without vertices.
+    /// Parts without triangles, and parts without vertices.
     Empty,
-    /// Copies of parts that their nodes shrink to a point and to a line.
+    /// Copies of parts that node transforms collapse to a point and to a line.
     Shrunk,
-    /// Five vertices are not a number.
+    /// Five vertices are NaN.
     NotANumber,
-    /// Five vertices are infinitely far away.
+    /// Five vertices are infinite.
     Infinite,
     /// Five vertices are 10³⁰ units away.
     FarAway,
-    /// Every third part is inside out.
+    /// Every third part is inverted.
     InsideOut,
-    /// Of every third part, every fourth triangle is turned round.
+    /// In every third part, every fourth triangle is flipped.
     PartlyReversed,
 }
 
 impl Fault {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Self; 10] = [
         Self::WithoutArea,
         Self::Twice,
@@ -45,7 +45,7 @@ impl Fault {
         Self::PartlyReversed,
     ];
 
-    /// What is wrong, in words.
+    /// A description.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -62,13 +62,13 @@ impl Fault {
         }
     }
 
-    /// Whether all of the sound scene is still there, as it was, so that what is drawn of it must be too.
+    /// Whether the undamaged scene remains complete and unchanged, so that its image must be unchanged too.
     #[must_use]
     pub fn leaves_all(self) -> bool {
         matches!(self, Self::WithoutArea | Self::Twice | Self::BeyondVertices | Self::Empty | Self::Shrunk)
     }
 
-    /// What five vertices are instead of what they were, if it is that.
+    /// The value of the five damaged vertices, for damage of that kind.
     fn vertex(self) -> Option<DVec3> {
         match self {
             Self::NotANumber => Some(DVec3::new(0.0, f64::NAN, 0.0)),
@@ -79,16 +79,16 @@ impl Fault {
     }
 }
 
-/// A scene of triangles with something wrong with it, loaded as a file would be that says so.
+/// A damaged copy of a scene of triangles, built as from a file.
 #[must_use]
 pub fn damaged(scene: &LoadedScene, fault: Fault) -> LoadedScene {
-    /// So many vertices are wrong.
+    /// The number of damaged vertices.
     const WRONG: usize = 5;
     let objects = &scene.mesh.objects;
     let mut builder = MeshBuilder::default();
     for (i, object) in objects.iter().enumerate() {
         let mut piece = Piece::of(&scene.mesh, object);
-        // In objects as far apart as there are: the first, and so on.
+        // In objects spread evenly over the list.
         let is_struck = (0..WRONG).any(|wrong| i == wrong * objects.len() / WRONG);
         if let Some(vertex) = fault.vertex().filter(|_| is_struck) {
             let middle = piece.triangles[piece.triangles.len() / 2];
@@ -116,8 +116,8 @@ pub fn damaged(scene: &LoadedScene, fault: Fault) -> LoadedScene {
     rebuilt(scene, builder)
 }
 
-/// A scene as a file holds it: positions in f32, of vertices, camera and lights. Triangles that have no area there are
-/// left out.
+/// A scene with positions of vertices, camera and lights rounded to f32, as in files. Triangles that become
+/// degenerate are left out.
 #[must_use]
 pub fn in_single_precision(scene: &LoadedScene) -> LoadedScene {
     let rounded = |position: DVec3| position.as_vec3().as_dvec3();
@@ -142,7 +142,7 @@ fn rebuilt(scene: &LoadedScene, builder: MeshBuilder) -> LoadedScene {
     LoadedScene { name: scene.name.clone(), mesh, camera: scene.camera, lights: scene.lights.clone(), left_out }
 }
 
-/// A part of a scene, to be made worse.
+/// A part of a scene, to be damaged.
 struct Piece {
     positions: Vec<DVec3>,
     normals: Vec<Vec3>,
@@ -151,7 +151,7 @@ struct Piece {
 }
 
 impl Piece {
-    /// What an object was made of: its vertices lie in a row.
+    /// The part that an object was made of: its vertices are consecutive.
     fn of(mesh: &Mesh, object: &Object) -> Self {
         let range = object.triangles.start as usize..object.triangles.end as usize;
         let triangles = &mesh.triangles[range.clone()];
@@ -170,7 +170,7 @@ impl Piece {
         Part { positions: &self.positions, normals: &self.normals, triangles: &self.triangles, colour: self.colour }
     }
 
-    /// Adds triangles that are of no use.
+    /// Adds unusable triangles.
     fn spoil(&mut self, fault: Fault) {
         match fault {
             Fault::WithoutArea => {

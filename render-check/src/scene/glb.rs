@@ -42,7 +42,7 @@ pub(super) fn parse(bytes: &[u8], name: String) -> Result<LoadedScene> {
         camera: None,
         lights: Vec::new(),
     };
-    // A file without a scene of its own is a library; show all of it.
+    // A file without a default scene is a library: show all of it.
     let roots: Vec<Node> = match file.default_scene().or_else(|| file.scenes().next()) {
         Some(scene) => scene.nodes().collect(),
         None => file.nodes().collect(),
@@ -65,8 +65,8 @@ pub(super) fn parse(bytes: &[u8], name: String) -> Result<LoadedScene> {
     Ok(LoadedScene { name, mesh, camera, lights, left_out })
 }
 
-/// Reads and validates a file. `Gltf::from_slice` would do both at once, but its validation panics on positions with
-/// an accessor that does not exist, so these are looked for in between.
+/// Reads and validates a file. `Gltf::from_slice` would do both, but its validation panics on position accessors
+/// that do not exist, so these are checked first.
 fn read_description(bytes: &[u8]) -> Result<Gltf, gltf::Error> {
     let unchecked = Gltf::from_slice_without_validation(bytes)?;
     let description = unchecked.document.as_json();
@@ -84,7 +84,7 @@ fn read_description(bytes: &[u8]) -> Result<Gltf, gltf::Error> {
     Ok(Gltf { document: Document::from_json(unchecked.document.into_json())?, blob })
 }
 
-/// glTF files that break one rule often break it a thousand times.
+/// A file that breaks one rule often breaks it thousands of times.
 fn first_complaint(error: gltf::Error) -> anyhow::Error {
     match error {
         gltf::Error::Validation(all) => match all.first() {
@@ -110,7 +110,7 @@ fn local_matrix(node: &Node) -> DMat4 {
     match node.transform() {
         Transform::Matrix { matrix } => DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from))),
         Transform::Decomposed { translation, rotation, scale } => {
-            // Files carry quaternions of nearly length one; zero would be a file's way of saying nothing.
+            // Quaternions in files are only approximately of unit length; a zero quaternion counts as the identity.
             let [x, y, z, w] = rotation.map(f64::from);
             let length = DVec3::new(x, y, z).length().hypot(w);
             let rotation = if length > 0.0 { DQuat::from_xyzw(x, y, z, w) / length } else { DQuat::IDENTITY };
@@ -126,7 +126,7 @@ fn double(v: [f32; 3]) -> DVec3 {
 struct Loader<'a> {
     binary: &'a [u8],
     lenses: Vec<Option<CameraLens>>,
-    /// A node that is met twice has two parents, or is its own ancestor.
+    /// A node visited twice has two parents, or is its own ancestor.
     seen: Vec<bool>,
     builder: MeshBuilder,
     camera: Option<Camera>,
@@ -201,11 +201,11 @@ impl Loader<'_> {
     }
 }
 
-/// What a file says of a perspective camera: the vertical field of view in radians, the near and the far plane.
+/// A perspective camera of a file: the vertical field of view in radians, the near and the far plane.
 type CameraLens = (f64, f64, f64);
 
-/// The perspective cameras of a file, `None` for others. Read from the description itself, as `Camera::projection`
-/// panics where the stated kind and the values given disagree.
+/// The perspective cameras of a file, `None` for others. Read from the JSON, as `Camera::projection` panics where
+/// the type and the values disagree.
 fn camera_lenses(file: &Gltf) -> Vec<Option<CameraLens>> {
     let cameras = file.as_json().cameras.iter();
     cameras
@@ -216,7 +216,7 @@ fn camera_lenses(file: &Gltf) -> Vec<Option<CameraLens>> {
         .collect()
 }
 
-/// A camera at a node looks along the node's −z axis; its up is +y. `None` where no picture comes of it.
+/// A camera at a node looks along the node's −z axis; its up is +y. `None` where it is invalid.
 fn camera_at(world_from_node: DMat4, (fov_y, near, far): CameraLens) -> Option<Camera> {
     let camera = Camera {
         eye: world_from_node.w_axis.truncate(),

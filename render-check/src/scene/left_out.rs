@@ -1,32 +1,32 @@
-//! What a loader left out.
+//! Counts of what a loader left out.
 
 use std::fmt;
 
-/// What a loader left out of the scene, by count.
+/// What a loader left out of a scene, by count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct LeftOut {
     /// Triangles with an index beyond the vertices.
     pub out_of_range: usize,
-    /// Triangles that are there already, with the same corners in the same order.
+    /// Duplicate triangles, with the same corners in the same order.
     pub twice: usize,
     /// Triangles with a vertex that is not finite.
     pub not_finite: usize,
-    /// Triangles with a coordinate larger than a fit takes.
+    /// Triangles with a coordinate beyond [`shadowfit::input::MAX_COORDINATE`].
     pub too_large: usize,
     /// Triangles without area.
     pub flat: usize,
-    /// Points that are not finite or too large, or that too few others are around.
+    /// Points that are not finite, too large, or have too few neighbours.
     pub points: usize,
     /// Primitives made of lines, strips or fans.
     pub other_primitives: usize,
-    /// Cameras that are not used: all but the first perspective camera that makes sense.
+    /// Cameras that are not used: all but the first valid perspective camera.
     pub cameras: usize,
-    /// Lights that cannot be used.
+    /// Invalid lights.
     pub lights: usize,
 }
 
 impl LeftOut {
-    /// Whether everything is there.
+    /// Whether nothing was left out.
     #[must_use]
     pub fn is_nothing(&self) -> bool {
         *self == Self::default()

@@ -1,4 +1,4 @@
-//! A light as a person writes it, and as the fit takes it.
+//! Lights in the command line's spelling.
 
 use std::fmt;
 use std::str::FromStr;
@@ -9,33 +9,33 @@ use shadowfit::glam::DVec3;
 
 use super::vector::parse_vector;
 
-/// A light as written on the command line or in a file, before anything is checked against a scene.
+/// A light as given on the command line or in a file, not yet validated.
 ///
 /// The spelling is `KIND:…` with the parts of a light separated by `/`:
 /// `sun:X,Y,Z`, `point:X,Y,Z[/RANGE]`, `spot:X,Y,Z/TX,TY,TZ/DEGREES[/RANGE]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightSpec {
-    /// A light so far away that only its direction counts.
+    /// A directional light.
     Sun {
-        /// Points towards the light; of any length but zero.
+        /// The direction towards the light; of any length but zero.
         direction_to_light: DVec3,
     },
-    /// A lamp that shines all around.
+    /// A point light.
     Point {
-        /// Where the lamp is, in world space.
+        /// Its position, in world space.
         position: DVec3,
-        /// How far it reaches, in world units; may be infinite.
+        /// Its range, in world units; may be infinite.
         range: f64,
     },
-    /// A lamp that shines into a cone.
+    /// A spot light.
     Spot {
-        /// Where the lamp is, in world space.
+        /// Its position, in world space.
         position: DVec3,
         /// A point on the cone's axis, in world space.
         target: DVec3,
-        /// The whole opening angle of the cone, in degrees, between 0 and 180.
+        /// The full cone angle, in degrees, between 0 and 180.
         cone_degrees: f64,
-        /// How far it reaches, in world units; may be infinite.
+        /// Its range, in world units; may be infinite.
         range: f64,
     },
 }
@@ -51,7 +51,7 @@ impl LightSpec {
         }
     }
 
-    /// Where the light is, unless it is infinitely far away.
+    /// Its position; `None` for a directional light.
     #[must_use]
     pub fn position(&self) -> Option<DVec3> {
         match *self {
@@ -60,7 +60,7 @@ impl LightSpec {
         }
     }
 
-    /// How far it reaches, in world units; infinite for a sun.
+    /// Its range, in world units; infinite for a sun.
     #[must_use]
     pub fn range(&self) -> f64 {
         match *self {
@@ -69,7 +69,7 @@ impl LightSpec {
         }
     }
 
-    /// The same light elsewhere: `moved` takes its position, and what it is aimed at, to where they are to be.
+    /// The same light with `moved` applied to its position and target.
     #[must_use]
     pub fn with_position(&self, moved: impl Fn(DVec3) -> DVec3) -> Self {
         match *self {
@@ -81,12 +81,12 @@ impl LightSpec {
         }
     }
 
-    /// The light as `shadowfit` takes it. `near` is the distance from a lamp at which its shadow map begins, in
-    /// world units; a sun has none.
+    /// The light for `shadowfit`. `near` is the near plane of point and spot lights, in world units; a sun has
+    /// none.
     ///
     /// # Errors
     ///
-    /// Whatever the fit refuses: a direction without length, a cone that is no cone, a range short of `near`.
+    /// When `shadowfit` rejects it: a zero direction, an invalid cone, a range below `near`.
     pub fn to_light(&self, near: f64) -> Result<Light> {
         match *self {
             Self::Sun { direction_to_light } => Light::directional(direction_to_light),
@@ -100,7 +100,7 @@ impl LightSpec {
     }
 }
 
-/// The spelling that [`FromStr`] reads, numbers rounded to four digits: files give lights that nobody typed.
+/// The spelling that [`FromStr`] reads, with numbers rounded to four decimals, as those of files are long.
 impl fmt::Display for LightSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let round = |v: DVec3| {

@@ -1,4 +1,4 @@
-//! Scenes by their name or their file.
+//! Loading scenes by name or file.
 
 use std::path::Path;
 
@@ -8,11 +8,11 @@ use super::builtin::BUILT_IN;
 use super::glb;
 use super::loaded::LoadedScene;
 
-/// Makes the built-in scene of that name; else loads a `.glb` file.
+/// Builds the built-in scene of that name; else loads a `.glb` file.
 ///
 /// # Errors
 ///
-/// When the file cannot be read, is not sound glTF, or has no triangles.
+/// When the file cannot be read, is not valid glTF, or has no triangles.
 pub fn load(path: &Path) -> Result<LoadedScene> {
     let scene = match BUILT_IN.iter().find(|built_in| path == Path::new(built_in.name)) {
         Some(built_in) => (built_in.make)(),

@@ -1,4 +1,4 @@
-//! A scene: triangles, and the cameras and lights that came with them.
+//! A scene: triangles, camera and lights.
 
 use shadowfit::glam::DVec3;
 
@@ -23,7 +23,7 @@ pub struct LoadedScene {
 }
 
 impl LoadedScene {
-    /// The same scene elsewhere and of another size: a position p becomes scale · p + offset. The scale is positive.
+    /// The scene scaled and translated: a position p becomes scale · p + offset. The scale is positive.
     #[must_use]
     pub fn moved(&self, scale: f64, offset: DVec3) -> Self {
         let position = |p: DVec3| scale * p + offset;

@@ -14,7 +14,7 @@ use super::left_out::LeftOut;
 pub struct Mesh {
     /// Positions.
     pub vertices: Vec<DVec3>,
-    /// Unit normals, one for each vertex; zero where the surface is meant to look flat.
+    /// Unit normals, one for each vertex; zero for flat shading.
     pub normals: Vec<Vec3>,
     /// Three indices into `vertices`, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
@@ -22,11 +22,11 @@ pub struct Mesh {
     pub colours: Vec<[f32; 3]>,
     /// The discs that stand for points. Each is drawn as a hexagon: the last triangles of the mesh, four for each.
     pub discs: Vec<Disc>,
-    /// The parts the mesh was made of, in the order of their triangles: what a renderer culls and draws as one.
+    /// The parts of the mesh, in the order of their triangles: the units of culling and drawing.
     pub objects: Vec<Object>,
 }
 
-/// A part of a mesh that is drawn as one.
+/// A part of a mesh: the unit of culling and drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Object {
     /// Its triangles, never none.
@@ -35,9 +35,9 @@ pub struct Object {
     pub min: DVec3,
     /// The greatest.
     pub max: DVec3,
-    /// Whether it is a solid.
+    /// Whether it is watertight.
     pub solidity: Solidity,
-    /// The same for a planner, which asks of sheets whether they are flat as well.
+    /// The same for the planner, which also tells flat open meshes from others.
     pub surface: Surface,
 }
 
@@ -71,11 +71,11 @@ impl Mesh {
         let weight_b = (point - a).cross(c - a).dot(cross) / cross.length_squared();
         let weight_c = (b - a).cross(point - a).dot(cross) / cross.length_squared();
         let normal = (na * (1.0 - weight_b - weight_c) + nb * weight_b + nc * weight_c).try_normalize()?;
-        // A normal that disagrees with the winding helps nobody; files have them.
+        // Files have normals that contradict the winding; the winding wins.
         Some(if normal.dot(cross) < 0.0 { -normal } else { normal })
     }
 
-    /// The least and greatest coordinates of all triangles. A box turned inside out where there are none.
+    /// The least and greatest coordinates of all triangles. An inverted box where there are none.
     #[must_use]
     pub fn bounds(&self) -> (DVec3, DVec3) {
         self.bounds_of(0..self.triangles.len())
@@ -94,12 +94,12 @@ impl Mesh {
     }
 }
 
-/// A piece of a mesh in coordinates of its own.
+/// A part of a mesh in local coordinates.
 #[derive(Clone, Copy, Debug)]
 pub struct Part<'a> {
     /// Positions.
     pub positions: &'a [DVec3],
-    /// Normals, one for each position, or none at all for a flat look.
+    /// Normals, one for each position, or none at all for flat shading.
     pub normals: &'a [Vec3],
     /// Indices into `positions`, three for each triangle.
     pub triangles: &'a [[u32; 3]],
@@ -107,7 +107,8 @@ pub struct Part<'a> {
     pub colour: [f32; 3],
 }
 
-/// Collects parts into one mesh and leaves out, and counts, the triangles that no ray can meet or that no fit can take.
+/// Collects parts into one mesh; leaves out and counts triangles that are degenerate, invalid or too large for a
+/// fit.
 #[derive(Debug, Default)]
 pub struct MeshBuilder {
     mesh: Mesh,
@@ -118,14 +119,14 @@ pub struct MeshBuilder {
 }
 
 impl MeshBuilder {
-    /// Adds a part, whatever is wrong with it: what cannot be used is left out, and the rest is there.
+    /// Adds a part; its unusable triangles are left out.
     pub fn add(&mut self, part: &Part<'_>, world_from_part: DMat4) {
         let triangles = self.usable(part);
         self.append(&Part { triangles: &triangles, ..*part }, world_from_part);
     }
 
-    /// The triangles of a part whose corners are there, each of them once. One that is there twice would be an edge with
-    /// too many faces to [`Solidity::of`], and its solid a sheet.
+    /// The triangles of a part with valid indices, without duplicates. A duplicate would give its edges too many
+    /// faces, so that [`Solidity::of`] would call a watertight part open.
     fn usable(&mut self, part: &Part<'_>) -> Vec<[u32; 3]> {
         let mut seen = HashSet::new();
         let mut usable = part.triangles.to_vec();
@@ -133,7 +134,7 @@ impl MeshBuilder {
         self.left_out.out_of_range += part.triangles.len() - usable.len();
         let in_range = usable.len();
         usable.retain(|triangle| {
-            // −0 becomes 0; the least corner comes first, wherever the triangle begins.
+            // −0 becomes 0; the least corner comes first, so that the starting corner does not matter.
             let mut corners = triangle.map(|i| part.positions[i as usize].to_array().map(|x| (x + 0.0).to_bits()));
             let least = (0..3).min_by_key(|&corner| corners[corner]).unwrap_or(0);
             corners.rotate_left(least);
@@ -143,14 +144,14 @@ impl MeshBuilder {
         usable
     }
 
-    /// Adds the triangles of a part that have corners in the world, and an area.
+    /// Adds the triangles of a part that have finite corners and an area.
     fn append(&mut self, part: &Part<'_>, world_from_part: DMat4) {
         let first = self.mesh.vertices.len() as u32;
         let first_triangle = self.mesh.triangles.len();
         self.mesh.vertices.extend(part.positions.iter().map(|&p| world_from_part.transform_point3(p)));
 
-        // Normals are covectors: they go with the cofactor matrix, which is the inverse transpose but for a factor
-        // and exists for flattened parts too.
+        // Normals transform by the cofactor matrix: the inverse transpose up to a factor, defined for singular
+        // transforms too.
         let linear = DMat3::from_mat4(world_from_part);
         let mirrored = linear.determinant() < 0.0;
         let cofactors = DMat3::from_cols(
@@ -164,11 +165,11 @@ impl MeshBuilder {
         );
         self.mesh.normals.resize(self.mesh.vertices.len(), Vec3::ZERO);
 
-        // Triangles without area are of no use but for closing cracks.
+        // Degenerate triangles serve only to close cracks.
         let mut with_cracks_closed = Vec::new();
         for triangle in part.triangles {
             let mut corners = triangle.map(|i| first + i);
-            // A mirroring node turns the winding round; the front must stay the front.
+            // A mirroring transform flips the winding; it is flipped back so that front faces stay front faces.
             if mirrored {
                 corners.swap(1, 2);
             }
@@ -192,7 +193,7 @@ impl MeshBuilder {
         if first_triangle < self.mesh.triangles.len() {
             let (min, max) = self.mesh.bounds_of(first_triangle..self.mesh.triangles.len());
             let triangles = first_triangle as u32..self.mesh.triangles.len() as u32;
-            // What is drawn may be closed though a triangle without area hangs from it.
+            // Degenerate triangles may hang from a watertight mesh, so solidity is decided without them.
             let drawn = &self.mesh.triangles[first_triangle..];
             let report = Solidity::of(&self.mesh.vertices, &with_cracks_closed);
             let report = match report {
@@ -201,14 +202,14 @@ impl MeshBuilder {
                 }
                 report => report,
             };
-            // What cannot be told is drawn as a sheet is: from both sides.
+            // If undecided, both faces are drawn, as for open meshes.
             let (solidity, surface) = report
                 .map_or((Solidity::Open, Surface::default()), |report| (report.solidity, Surface::from(&report)));
             self.mesh.objects.push(Object { triangles, min, max, solidity, surface });
         }
     }
 
-    /// Adds a cloud of points, which become discs.
+    /// Adds a point cloud; its points become discs.
     pub fn add_points(&mut self, points: &[DVec3], colour: [f32; 3], world_from_part: DMat4) {
         let points = points.iter().map(|&point| world_from_part.transform_point3(point));
         let (finite, other): (Vec<DVec3>, Vec<DVec3>) =
@@ -238,7 +239,7 @@ impl MeshBuilder {
         let positions: Vec<DVec3> = discs.iter().flat_map(Disc::hexagon).collect();
         let of_disc = |first: u32| Disc::TRIANGLES.map(|triangle| triangle.map(|corner| first + corner));
         let triangles: Vec<[u32; 3]> = (0..discs.len() as u32).flat_map(|disc| of_disc(6 * disc)).collect();
-        // Discs in one place are there as often as their points: each has its triangles.
+        // Coincident points have a disc, and triangles, each.
         self.append(&Part { positions: &positions, normals: &[], triangles: &triangles, colour }, DMat4::IDENTITY);
         if let Some(object) = self.mesh.objects.last_mut() {
             object.surface = Surface::Points;
@@ -247,16 +248,16 @@ impl MeshBuilder {
     }
 }
 
-/// So many discs at most are culled and drawn as one.
+/// The largest number of discs in an object.
 const DISCS_AN_OBJECT: usize = 1024;
 
-/// Whether a coordinate is beyond what a fit takes.
+/// Whether a coordinate is beyond [`MAX_COORDINATE`].
 fn is_too_large(point: DVec3) -> bool {
     point.abs().max_element() > MAX_COORDINATE
 }
 
-/// Whether three points lie on a line, as far as coordinates of that size can tell: each edge is known to a few
-/// roundings of the largest coordinate, so the doubled area is known to that times the longest edge.
+/// Whether three points are collinear within the rounding of their coordinates: each edge is known to a few ulps of
+/// the largest coordinate, so the doubled area is known to that times the longest edge.
 fn is_flat(a: DVec3, b: DVec3, c: DVec3) -> bool {
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());
     let largest = a.abs().max(b.abs()).max(c.abs()).max_element();

@@ -1,4 +1,4 @@
-//! Triangles in world space, and the cameras and lights that came with them: from a `.glb` file, or made by code.
+//! Scenes: triangles in world space, cameras and lights, from a `.glb` file or made by code.
 
 mod accessor;
 mod builtin;

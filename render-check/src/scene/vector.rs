@@ -1,4 +1,4 @@
-//! Vectors as a person writes them.
+//! Vectors on the command line.
 
 use shadowfit::glam::DVec3;
 
@@ -6,7 +6,7 @@ use shadowfit::glam::DVec3;
 ///
 /// # Errors
 ///
-/// A sentence that names what is wrong.
+/// A message that names the mistake.
 pub fn parse_vector(text: &str) -> Result<DVec3, String> {
     let numbers = text
         .split(',')

@@ -1,4 +1,4 @@
-//! Which camera looks at the scene, and where its near and far planes lie.
+//! The choice of the camera, and of its near and far planes.
 
 use anyhow::{Result, bail};
 use shadowfit::View;
@@ -7,25 +7,25 @@ use shadowfit::glam::DVec3;
 use crate::scene::{Camera, LoadedScene, Mesh};
 use crate::trace::{Lens, Tracer};
 
-/// The vertical field of view where nobody gives one, in degrees.
+/// The default vertical field of view, in degrees.
 const DEFAULT_FOV_DEGREES: f64 = 50.0;
 
-/// The probe: so many rays across and down look for what is in view.
+/// Probe rays across and down the image, which find the visible surfaces.
 const PROBE: (u32, u32) = (96, 60);
 
-/// How far the nearest surface in view is off, compared with the near plane put before it: the probe's rays leave gaps
-/// in which something may stand nearer.
+/// The default near plane relative to the depth of the nearest probed surface: nearer surfaces may lie between the
+/// probe rays.
 const NEAR_PLANE_MARGIN: f64 = 0.5;
 
-/// The least near distance chosen, as a part of the distance to the scene's far end.
+/// The smallest default near plane, relative to the far end of the scene.
 const LEAST_NEAR: f64 = 1e-4;
 
-/// What is asked of a camera; what is left open is the scene's, or chosen to suit it.
+/// Options of the camera; each defaults to the scene's camera, or to a value that suits the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CameraRequest {
-    /// Where it is, in world space.
+    /// Position, in world space.
     pub eye: Option<DVec3>,
-    /// The point it looks at, if it has an eye of its own; else the middle of the scene.
+    /// The point to look at from `eye`; defaults to the middle of the scene.
     pub target: Option<DVec3>,
     /// The vertical field of view, in degrees.
     pub fov: Option<f64>,
@@ -35,7 +35,7 @@ pub struct CameraRequest {
     pub far: Option<f64>,
 }
 
-/// The camera that is asked for; else the scene's own; else one that shows the whole scene.
+/// The requested camera; else the scene's own; else one that shows the whole scene.
 ///
 /// # Errors
 ///
@@ -53,20 +53,21 @@ pub fn choose_camera(request: &CameraRequest, aspect: f64, scene: &LoadedScene) 
     Ok(camera)
 }
 
-/// What a few rays through the picture meet.
+/// The result of the probe rays.
 struct Probe {
     /// The depth of the nearest surface, along the camera's axis.
     nearest: f64,
-    /// The share of the surfaces met that face away from the camera.
+    /// The fraction of hits on back faces.
     back_faces: f64,
 }
 
-/// The camera with its planes: those it has, else the near plane close before what is in view and the far plane
-/// behind the whole scene. The second value is a warning, where the picture is unlikely to be what was wanted.
+/// The view of a camera with its own near and far planes; by default the near plane is close in front of the
+/// nearest visible surface and the far plane just beyond the scene. The second value is a warning where the image
+/// is probably not what was wanted.
 ///
 /// # Errors
 ///
-/// When the camera makes no sense, or when nothing is in view.
+/// When the camera is invalid, or nothing is in view.
 pub fn choose_view(camera: &Camera, aspect: f64, tracer: &Tracer) -> Result<(View, Option<String>)> {
     let scene_end = farthest_depth(camera, tracer.mesh());
     if scene_end <= 0.0 {
@@ -77,7 +78,7 @@ pub fn choose_view(camera: &Camera, aspect: f64, tracer: &Tracer) -> Result<(Vie
     let probe = probe(&camera.view(aspect, least_near, far)?, tracer)?;
     let near = camera.near.unwrap_or((NEAR_PLANE_MARGIN * probe.nearest).max(least_near));
     let view = camera.view(aspect, near, far)?;
-    // Inside a closed solid one sees it from behind, all around and close by.
+    // From inside a watertight object all visible surfaces are back faces, and close.
     let (min, max) = tracer.bounds();
     let inside = probe.back_faces > 0.9 && probe.nearest < 0.02 * (max - min).length();
     let warning = inside.then(|| {
@@ -181,7 +182,7 @@ mod tests {
         let corners =
             |x: f64| [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(y, z)| DVec3::new(x, y, z));
         let positions = [corners(-1.0), corners(40.0)].concat();
-        // The two ends of a long beam, fronts outwards: its sides are not in view.
+        // The two ends of a long beam, front faces outwards: its sides are not in view.
         let triangles = [[4, 5, 6], [4, 6, 7], [0, 2, 1], [0, 3, 2]];
         let mut builder = MeshBuilder::default();
         builder.add(

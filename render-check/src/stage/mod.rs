@@ -1,4 +1,4 @@
-//! One camera before one scene: what all lights and all techniques share.
+//! One camera in one scene: what all lights and techniques share.
 
 mod extent;
 mod framing;
@@ -15,36 +15,36 @@ use crate::scene::LightSpec;
 use crate::trace::Tracer;
 use crate::verdict::TruthImage;
 
-/// A camera before a scene, drawn.
+/// A camera in a scene, with its visible surfaces.
 pub struct Stage<'a> {
-    /// The card that draws.
+    /// The GPU.
     pub gpu: &'a Gpu,
-    /// The scene, as rays meet it.
+    /// The scene, for rays.
     pub tracer: &'a Tracer<'a>,
     /// The scene's box, S.
     pub bounds: Scene<'static>,
     /// The camera, V.
     pub view: View,
-    /// What maps are fitted to: the camera, or what of its depth something is seen in.
+    /// The view that maps are fitted to: the camera's, or narrowed to the depth range of its visible surfaces.
     pub fitted_view: View,
     /// Width and height of its image, in pixels.
     pub size: [u32; 2],
-    /// What the maps' matrices take positions relative to.
+    /// The origin of the maps' matrices.
     pub origin: Origin,
-    /// The triangles on the card that maps are drawn of, relative to that.
+    /// The casters' geometry on the GPU, relative to that origin.
     pub geometry: Geometry,
-    /// What the camera sees.
+    /// The visible surfaces.
     pub surfaces: Surfaces,
-    /// The distance from lamps at which their maps begin, in world units, where somebody says.
+    /// The near plane of local lights, in world units, if given.
     lamp_near: Option<f64>,
 }
 
 impl<'a> Stage<'a> {
-    /// Draws what the camera sees.
+    /// Draws the camera pass.
     ///
     /// # Errors
     ///
-    /// When the scene is too large for the fit or for the card.
+    /// When the scene is too large for the fit or for the GPU.
     pub fn new(gpu: &'a Gpu, tracer: &'a Tracer<'a>, view: &View, size: [u32; 2]) -> Result<Self> {
         let geometry = Geometry::upload(gpu, tracer.mesh(), view.eye())?;
         let surfaces = Surfaces::draw(gpu, &geometry, view, size)?;
@@ -64,43 +64,43 @@ impl<'a> Stage<'a> {
         })
     }
 
-    /// The same with maps of positions in world space, as f32 has them there. What the camera sees stays what it is.
+    /// The same with maps, casters and receivers in world space, rounded to f32. The camera pass is unaffected.
     ///
     /// # Errors
     ///
-    /// When the card refuses.
+    /// When the GPU reports an error.
     pub fn in_world_space(self) -> Result<Self> {
         let surfaces = Surfaces::draw_about(self.gpu, &self.geometry, &self.view, self.size, DVec3::ZERO)?;
         let geometry = Geometry::upload(self.gpu, self.tracer.mesh(), DVec3::ZERO)?;
         Ok(Self { origin: Origin::World, geometry, surfaces, ..self })
     }
 
-    /// The same with maps that are fitted to what of the camera's depth something is seen in, read back from the card.
+    /// The same with maps fitted to the depth range of the visible surfaces, read back from the GPU.
     ///
     /// # Errors
     ///
-    /// When the card refuses.
+    /// When the GPU reports an error.
     pub fn narrowed(self) -> Result<Self> {
         Ok(Self { fitted_view: self.surfaces.narrowed(self.gpu, &self.view)?, ..self })
     }
 
-    /// The same with lamps whose maps begin at another distance, if one is given.
+    /// The same with another near plane for local lights, if one is given.
     #[must_use]
     pub fn with_lamp_near(self, lamp_near: Option<f64>) -> Self {
         Self { lamp_near, ..self }
     }
 
-    /// The distance from a lamp at which its map begins, in world units; see [`lamp_near`] where nobody says.
+    /// The near plane of a local light, in world units; [`lamp_near`] by default.
     #[must_use]
     pub fn lamp_near(&self, spec: &LightSpec) -> f64 {
         self.lamp_near.unwrap_or_else(|| lamp_near(self.tracer, spec))
     }
 
-    /// A light, as the fit takes it and as rays see it from here.
+    /// A light for the fit, with its ray-traced truth.
     ///
     /// # Errors
     ///
-    /// When the light makes no sense.
+    /// When the light is invalid.
     pub fn light(&self, spec: LightSpec) -> Result<StageLight> {
         let near = self.lamp_near(&spec);
         let light = spec.to_light(near)?;
@@ -112,10 +112,10 @@ impl<'a> Stage<'a> {
 
 /// A light on a stage.
 pub struct StageLight {
-    /// As it was written.
+    /// The light, as given.
     pub spec: LightSpec,
-    /// As the fit takes it.
+    /// The light, for the fit.
     pub light: Light,
-    /// What rays say of every pixel.
+    /// The truth about every pixel.
     pub truth: TruthImage,
 }

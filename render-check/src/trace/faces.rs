@@ -1,29 +1,29 @@
-//! The sides of triangles.
+//! Faces of triangles.
 
 use shadowfit::{
     depth::{Culling, DepthTest},
     mesh::Solidity,
 };
 
-/// Which sides of triangles a ray can meet, or a map is drawn with, as the ray or the light sees them.
+/// Which faces of triangles rays hit, or a map holds, as seen along the ray or from the light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, clap::ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Faces {
     /// Both.
     #[default]
     All,
-    /// Only the fronts, which are counter-clockwise as the ray sees them.
+    /// Front faces, which are counter-clockwise
     Front,
-    /// Only the backs.
+    /// Back faces
     Back,
-    /// The far sides of solids, and both sides of sheets: second depth
+    /// Second depth: the back faces of watertight meshes, and both faces of open ones
     Second,
-    /// Both, twice: the first two surfaces along a ray, tested against the middle of them
+    /// The first two surfaces along a ray; tests use their midpoint
     Layers,
 }
 
 impl Faces {
-    /// What a map leaves out of an object.
+    /// The culling of an object drawn into a map.
     #[must_use]
     pub fn culling(self, solidity: Solidity) -> Culling {
         match self {

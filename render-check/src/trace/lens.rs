@@ -1,4 +1,4 @@
-//! A 4×4 matrix as something to look through: the camera, a light's view and a shadow map are all the same to a ray.
+//! Rays through a projection matrix: of a camera, a light's view or a shadow map.
 
 use anyhow::{Context, Result};
 use shadowfit::View;
@@ -6,8 +6,8 @@ use shadowfit::glam::{DMat4, DVec2, DVec3, DVec4};
 
 use super::ray::Ray;
 
-/// Rays through the exact middle of pixels tend to meet edges and vertices of scenes laid out on a grid, where parry3d's
-/// triangles leave cracks. A ray this far off the middle, in pixels, meets none.
+/// Rays through exact pixel centres tend to hit edges and vertices of scenes laid out on a grid, where parry3d's
+/// triangles leave cracks. Rays offset by this, in pixels, do not.
 const OFF_CENTRE: DVec2 = DVec2::new(1.3e-4, -0.7e-4);
 
 /// A projection from world space to a clip space with x and y in −1…1, y up, and depth in 0…1.
@@ -28,7 +28,7 @@ impl Lens {
         Ok(Self { clip_from_world, world_from_clip })
     }
 
-    /// The camera's lens.
+    /// The lens of a view.
     ///
     /// # Errors
     ///
@@ -39,8 +39,8 @@ impl Lens {
         Self::new(halve_depth * view.clip_from_world())
     }
 
-    /// A lens that sees from a point, in the frame of three unit axes: `right`, `up` and `forward`, which is the way
-    /// it looks. `slopes` are the tangents of half its horizontal and vertical opening angles.
+    /// A perspective lens in the frame of three unit axes: `right`, `up` and `forward`. `slopes` are the tangents
+    /// of half its horizontal and vertical fields of view.
     ///
     /// # Errors
     ///
@@ -56,8 +56,8 @@ impl Lens {
         Self::new(clip_from_eye * eye_from_world(eye, axes))
     }
 
-    /// A lens that sees along parallel lines: `centre` is the middle of its near plane, `half_extents` are half its
-    /// width and height, and the axes are those of [`Self::perspective`].
+    /// An orthographic lens: `centre` is the middle of its near plane, `half_extents` are half its width and
+    /// height, and the axes are those of [`Self::perspective`].
     ///
     /// # Errors
     ///
@@ -73,27 +73,27 @@ impl Lens {
         self.clip_from_world
     }
 
-    /// Where a point lands, after division by w.
+    /// The normalised device coordinates of a point.
     #[must_use]
     pub fn project(&self, point: DVec3) -> DVec3 {
         let clip = self.clip_from_world * point.extend(1.0);
         clip.truncate() / clip.w
     }
 
-    /// The point that lands at a place in clip space; `None` where that place lies beyond infinity: a warped map's
-    /// window may reach over the horizon of the plane it looks at.
+    /// The point at given normalised device coordinates; `None` beyond the horizon, which a warped map's window may
+    /// include.
     #[must_use]
     pub fn unproject(&self, clip: DVec3) -> Option<DVec3> {
         let point = self.world_from_clip * clip.extend(1.0);
         (point.w > 0.0).then(|| point.truncate() / point.w)
     }
 
-    /// The ray from depth 0 to depth 1 through a place on the lens; `None` where it lies beyond infinity.
+    /// The ray from depth 0 to depth 1 through given normalised device coordinates; `None` beyond the horizon.
     #[must_use]
     pub fn ray(&self, place: DVec2) -> Option<Ray> {
         let origin = self.unproject(place.extend(0.0))?;
         let end = self.world_from_clip * place.extend(1.0).extend(1.0);
-        // With an infinite far plane the end is at infinity: w is zero, or a rounding away from it. So do not divide.
+        // With an infinite far plane w at the far end is zero up to rounding, so the ray avoids the division.
         let towards_end = end.truncate() - end.w * origin;
         let direction = towards_end.try_normalize()?;
         let length = if end.w > 0.0 { towards_end.length() / end.w } else { f64::INFINITY };

@@ -1,4 +1,4 @@
-//! Rays against the triangles of a scene, in f64.
+//! Ray casting against the triangles of a scene, in f64.
 
 mod faces;
 mod lens;

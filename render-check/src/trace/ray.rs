@@ -1,37 +1,37 @@
-//! Rays, and where they meet the scene.
+//! Rays and hits.
 
 use shadowfit::glam::DVec3;
 
 use crate::scene::Mesh;
 
-/// Half a line, or a piece of one.
+/// A ray of finite or infinite length.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
-    /// Where it starts, in world space.
+    /// Its origin, in world space.
     pub origin: DVec3,
-    /// Where it goes, of length one.
+    /// Its direction, of unit length.
     pub direction: DVec3,
-    /// How far it goes, in world units; may be infinite.
+    /// Its length, in world units; may be infinite.
     pub length: f64,
 }
 
-/// Where a ray first meets the scene.
+/// The first hit of a ray.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
-    /// How far along the ray, in world units.
+    /// The distance along the ray, in world units.
     pub distance: f64,
-    /// Where, in world space.
+    /// The point, in world space.
     pub point: DVec3,
-    /// Which triangle of the mesh.
+    /// The index of the triangle.
     pub triangle: usize,
     /// The triangle's unit normal, on the side of its counter-clockwise winding.
     pub face_normal: DVec3,
-    /// The surface's unit normal, smooth where the mesh says so, on the side the ray comes from.
+    /// The unit shading normal, interpolated where the mesh has normals, on the side that the ray comes from.
     pub shading_normal: DVec3,
 }
 
 impl Hit {
-    /// The ray meets a triangle of the mesh, so far along.
+    /// The hit of a triangle at a distance along the ray.
     #[must_use]
     pub fn along(ray: &Ray, distance: f64, mesh: &Mesh, triangle: usize) -> Self {
         let point = ray.origin + distance * ray.direction;
@@ -41,7 +41,7 @@ impl Hit {
         Self { distance, point, triangle, face_normal, shading_normal: facing * shading_normal }
     }
 
-    /// Whether the ray met the triangle from behind.
+    /// Whether the ray hit the triangle's back face.
     #[must_use]
     pub fn is_back_face(&self, ray: &Ray) -> bool {
         self.face_normal.dot(ray.direction) > 0.0

@@ -1,4 +1,4 @@
-//! Rays against the triangles of a scene, through parry3d's bounding-volume tree in f64.
+//! Ray casting with parry3d's bounding-volume tree in f64.
 
 use anyhow::{Context, Result};
 use parry3d_f64::math::Vector;
@@ -11,20 +11,20 @@ use super::faces::Faces;
 use super::ray::{Hit, Ray};
 use crate::scene::Mesh;
 
-/// Parry's triangles leave cracks between them, which only rays aimed at an edge can find; in a scene laid out on a grid
-/// the light and the middle of a pixel may be in line with one. So rays leave surfaces a little to one side, in no
-/// direction that a scene would have, by less than they rise above it.
+/// Parry's triangles leave cracks between them, which only rays exactly through an edge can slip through; in a
+/// scene laid out on a grid, a ray from a pixel centre to the light may be one. So the origins of shadow rays are
+/// also shifted sideways, in a direction that no scene is aligned with, by less than they are lifted off the
+/// surface.
 const ASIDE: DVec3 = DVec3::new(0.137, -0.071, 0.113);
 
-/// A mesh that rays can be cast at.
+/// A mesh with its bounding-volume tree.
 pub struct Tracer<'a> {
     mesh: &'a Mesh,
     tree: TriMesh,
-    /// The mesh's, which take a while to find.
+    /// The mesh's bounds, cached.
     bounds: (DVec3, DVec3),
-    /// How far a ray that leaves a surface starts off it. A point of a surface is off by a few roundings of its
-    /// coordinates, 1e-16 of the largest: this is far more than that, wherever the scene stands, and far less than
-    /// anything a picture of the scene shows.
+    /// The offset of shadow ray origins from their surface: far more than the rounding of a surface point, about
+    /// 1e-16 of its largest coordinate, and far less than anything visible in an image of the scene.
     surface_offset: f64,
 }
 
@@ -42,7 +42,7 @@ impl<'a> Tracer<'a> {
         Ok(Self { mesh, tree, bounds: (min, max), surface_offset: 1e-9 * (max - min).length() + 1e-12 * largest })
     }
 
-    /// The triangles that the rays are cast at.
+    /// The mesh.
     #[must_use]
     pub fn mesh(&self) -> &'a Mesh {
         self.mesh
@@ -54,20 +54,20 @@ impl<'a> Tracer<'a> {
         self.bounds
     }
 
-    /// How far a point is from the nearest triangle, in world units.
+    /// The distance of a point to the nearest triangle, in world units.
     #[must_use]
     pub fn distance_to(&self, point: DVec3) -> f64 {
         self.tree.distance_to_local_point(to_parry(point), false)
     }
 
-    /// The first triangle along the ray, from either side.
+    /// The first hit along the ray, of front or back faces.
     #[must_use]
     pub fn first_hit(&self, ray: &Ray) -> Option<Hit> {
         self.first_hit_of(ray, Faces::All)
     }
 
-    /// The first triangle along the ray that shows it one of these sides. Of second depth it finds backs only: where an
-    /// object that is drawn otherwise is in the way, it may say that there is nothing.
+    /// The first hit along the ray of these faces. For second depth only back faces are searched: `None` may be
+    /// returned where an object that is not drawn by its back faces comes first.
     #[must_use]
     pub fn first_hit_of(&self, ray: &Ray, faces: Faces) -> Option<Hit> {
         let culled = |mode| self.tree.cast_local_ray_with_culling(&ray_to_parry(ray), ray.length, mode);
@@ -76,7 +76,7 @@ impl<'a> Tracer<'a> {
                 self.tree.cast_local_ray_and_get_normal(&ray_to_parry(ray), ray.length, false)
             }
             Faces::Front => culled(RayCullingMode::IgnoreBackfaces),
-            // Backs, which are drawn of all objects but those inside out.
+            // Back faces, which are drawn of all but inverted objects.
             Faces::Back | Faces::Second => culled(RayCullingMode::IgnoreFrontfaces),
         }?;
         let hit = Hit::along(ray, found.time_of_impact, self.mesh, found.subshape as usize);
@@ -87,27 +87,27 @@ impl<'a> Tracer<'a> {
         is_drawn(hit.triangle).then_some(hit)
     }
 
-    /// Whether the ray meets any triangle, from either side.
+    /// Whether the ray hits any triangle, front or back.
     #[must_use]
     pub fn is_blocked(&self, ray: &Ray) -> bool {
         self.tree.cast_local_ray(&ray_to_parry(ray), ray.length, false).is_some()
     }
 
-    /// How far a ray that leaves a surface starts off it: nothing that a picture shows is so small.
+    /// The offset of shadow ray origins from their surface, smaller than anything visible.
     #[must_use]
     pub fn surface_offset(&self) -> f64 {
         self.surface_offset
     }
 
-    /// Where a ray starts that leaves a surface at `point`: a hair off it, along the face's unit normal on the side that
-    /// the ray leaves from, so that it meets neither the triangle it starts on nor one that lies in the same plane.
+    /// The origin of a shadow ray from `point`: offset along the face's unit normal on the lit side, so that the
+    /// ray hits neither its own triangle nor a coplanar one.
     #[must_use]
     pub fn off_surface(&self, point: DVec3, normal: DVec3) -> DVec3 {
         point + self.surface_offset * (normal + ASIDE)
     }
 
-    /// Whether anything stands between a surface point that `viewed_from` has seen and a light, `distance` away in
-    /// `direction_to_light`. The ray starts a little off the surface, on the side that was seen.
+    /// Whether anything blocks the light, `distance` away in `direction_to_light`, at a surface point hit by
+    /// `viewed_from`. The shadow ray starts off the surface, on the visible side.
     #[must_use]
     pub fn is_shadowed(&self, hit: &Hit, viewed_from: &Ray, direction_to_light: DVec3, distance: f64) -> bool {
         let side = if hit.is_back_face(viewed_from) { -1.0 } else { 1.0 };
@@ -120,7 +120,7 @@ fn ray_to_parry(ray: &Ray) -> ParryRay {
     ParryRay::new(to_parry(ray.origin), to_parry(ray.direction))
 }
 
-/// parry3d has a `glam` of its own, so vectors cross over as numbers.
+/// parry3d uses its own version of `glam`, so vectors are converted by component.
 fn to_parry(v: DVec3) -> Vector {
     Vector::new(v.x, v.y, v.z)
 }

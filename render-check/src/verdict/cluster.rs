@@ -1,4 +1,4 @@
-//! The worst place of a picture: its largest patch of faults.
+//! The largest cluster of faults in an image.
 
 use serde::Serialize;
 use shadowfit::glam::DVec2;
@@ -6,20 +6,20 @@ use shadowfit::glam::DVec2;
 use super::mark::{Fault, Mark};
 use super::truth::{TruthImage, neighbours};
 
-/// Pixels at fault that touch each other, at sides or corners.
+/// Faulty pixels that touch each other, at sides or corners.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Cluster {
-    /// How many there are.
+    /// Their number.
     pub pixels: usize,
-    /// The one nearest to the middle of them all: its column from the left and its row from the top.
+    /// The pixel nearest to their centroid: column from the left and row from the top.
     pub centre: [u32; 2],
-    /// What that pixel shows, in world space.
+    /// The surface point of that pixel, in world space.
     pub position: [f64; 3],
-    /// The fault that most of them have.
+    /// The most frequent fault.
     pub fault: Fault,
 }
 
-/// The largest cluster of a picture, the first one from the top among equals; `None` where nothing is at fault.
+/// The largest cluster of an image, the first from the top among equals; `None` without faults.
 pub(super) fn worst_cluster(truth: &TruthImage, marks: &[Mark]) -> Option<Cluster> {
     let largest = largest_patch(truth.size(), marks);
     let width = truth.size()[0] as usize;
@@ -34,7 +34,7 @@ pub(super) fn worst_cluster(truth: &TruthImage, marks: &[Mark]) -> Option<Cluste
     Some(Cluster { pixels: largest.len(), centre: column_and_row(centre), position, fault })
 }
 
-/// The indices of the most pixels at fault that touch each other.
+/// The pixel indices of the largest cluster.
 fn largest_patch(size: [u32; 2], marks: &[Mark]) -> Vec<usize> {
     let mut is_waiting: Vec<bool> = marks.iter().map(|mark| mark.fault().is_some()).collect();
     let mut largest = Vec::new();

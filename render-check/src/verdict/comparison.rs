@@ -1,10 +1,10 @@
-//! What every question about a pixel needs.
+//! The inputs of a comparison.
 
 use super::rendered::Rendered;
 use super::truth::TruthImage;
 use crate::trace::Tracer;
 
-/// All that it takes to judge a pixel.
+/// The inputs needed to judge a pixel.
 pub(super) struct Comparison<'a> {
     pub(super) truth: &'a TruthImage,
     pub(super) rendered: &'a Rendered<'a>,

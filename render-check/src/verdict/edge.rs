@@ -1,18 +1,18 @@
-//! Edges of shadows: where a map of finite resolution cannot be asked to be right.
+//! Edges of shadows, where a map of finite resolution is bound to be wrong.
 //!
-//! A map answers for whole texels, and a renderer's pixels are off by a little, so along the edge of every true shadow
-//! some pixels are wrong. A wrong pixel is taken for one of these where the truth itself changes close by:
+//! A map resolves whole texels, and a renderer's pixels are slightly off, so along the edge of every true shadow
+//! some pixels are wrong. A wrong pixel counts as an edge pixel where the truth itself changes nearby:
 //!
-//! - **in texels**: at one of the texel centres that the filter reads, or at one of eight places around, half a texel
-//!   farther out than it reads; all of them taken along the tangent plane of the receiver, so that the truth is asked of
-//!   a plane and not of whatever surface is there. A place whose ray of light does not meet that plane counts as a
-//!   change: the plane turns away from the light within the filter.
-//! - **in pixels**: at one of the eight pixels around.
+//! - **in texels**: at one of the texel centres that the filter reads, or at one of eight points around, half a
+//!   texel beyond its reach. All are projected along the light onto the receiver's tangent plane, so that the truth
+//!   of a plane is tested and not of whatever surface is there. A point whose light ray misses that plane counts as
+//!   a change, as the plane turns away from the light within the filter.
+//! - **in pixels**: at one of the eight neighbouring pixels.
 //!
-//! What this hides: faults within that distance of a true edge, which includes creases and contacts, where the tangent
-//! plane runs into another surface and is in shadow there; and, where the light grazes a surface, all that lies within
-//! the long stretch of it that a texel covers. What it cannot hide: acne on flat and convex surfaces, as their tangent
-//! planes are lit all around, and light in the inside of a shadow, as it is dark all around.
+//! This hides faults within that distance of a true edge. That includes creases and contacts, where the tangent
+//! plane runs into another surface and is in shadow there; and, at grazing incidence, the long stretch of surface
+//! that one texel covers. It cannot hide acne on flat and convex surfaces, whose tangent planes are lit all around,
+//! nor light leaks inside a shadow, which is dark all around.
 
 use shadowfit::glam::DVec2;
 
@@ -22,11 +22,11 @@ use super::source::Illumination;
 use super::surface::Surface;
 use super::truth::Truth;
 
-/// How much farther out than the filter reads the truth is asked, in texels.
+/// How far beyond the filter's reach the truth is tested, in texels.
 const BEYOND: f64 = 0.5;
 
 impl Comparison<'_> {
-    /// Whether the truth changes from `lit`, which it is at the receiver, within the texels that the filter reads.
+    /// Whether the truth differs from `lit`, its value at the receiver, anywhere within the filter's reach.
     pub(super) fn is_edge_in_texels(&self, projection: &dyn Projection, receiver: &Surface, lit: bool) -> bool {
         let Some(place) = projection.place(receiver.point).map(|place| place.truncate()) else {
             return false;
@@ -40,8 +40,8 @@ impl Comparison<'_> {
         around(place, reach + BEYOND).chain(centres_within(place, reach)).any(changes_at)
     }
 
-    /// Whether the truth changes from `lit`, which it is in the pixel at `index`, in one of the pixels around that the
-    /// light could reach.
+    /// Whether the truth differs from `lit`, its value in the pixel at `index`, in one of the neighbouring compared
+    /// pixels.
     pub(super) fn is_edge_in_pixels(&self, index: usize, lit: bool) -> bool {
         self.truth.around(index).any(|pixel| match pixel {
             Truth::Seen(_, Illumination::Either) => true,
@@ -50,7 +50,7 @@ impl Comparison<'_> {
     }
 }
 
-/// Eight places on a square around a place.
+/// Eight points on a square around a point.
 fn around(place: DVec2, distance: f64) -> impl Iterator<Item = DVec2> {
     (-1..=1)
         .flat_map(|y| (-1..=1).map(move |x| DVec2::new(f64::from(x), f64::from(y))))
@@ -58,7 +58,7 @@ fn around(place: DVec2, distance: f64) -> impl Iterator<Item = DVec2> {
         .map(move |step| place + distance * step)
 }
 
-/// The centres of the texels that lie no farther from a place than `reach`, in columns and in rows.
+/// The texel centres within `reach` of a point, along each axis.
 fn centres_within(place: DVec2, reach: f64) -> impl Iterator<Item = DVec2> {
     let span = move |at: f64| {
         let (first, last) = ((at - reach - 0.5).ceil(), (at + reach - 0.5).floor());

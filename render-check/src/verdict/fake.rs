@@ -1,5 +1,5 @@
-//! A renderer for tests that casts rays: honest triangles, maps and look-ups, made with matrices alone and without the
-//! geometry under test.
+//! A ray-casting renderer for tests: triangles, maps and shadow tests from matrices alone, without the code under
+//! test.
 
 use std::f64::consts::PI;
 
@@ -12,10 +12,10 @@ use crate::maps::Split;
 use crate::scene::{LightSpec, Mesh, MeshBuilder, Part};
 use crate::trace::{Faces, Hit, Lens, Ray, Tracer};
 
-/// Pixels of the picture.
+/// The image size, in pixels.
 pub(crate) const SIZE: [u32; 2] = [192, 128];
 
-/// Where the lamps' maps begin.
+/// The near plane of local lights.
 pub(crate) const LAMP_NEAR: f64 = 0.05;
 
 pub(crate) const SUN: LightSpec = LightSpec::Sun { direction_to_light: DVec3::new(0.5, 1.0, 0.3) };
@@ -27,8 +27,8 @@ pub(crate) const SPOT: LightSpec = LightSpec::Spot {
     range: 9.0,
 };
 
-/// A floor from −5 to 5 at height 0 with its front up, a slab floating over its left half and, with facets large enough
-/// to see, a ball over its right half; each is an object.
+/// A floor from −5 to 5 at height 0 with its front face up, a slab floating over its left half, and a ball with
+/// visible facets over its right half; each is an object.
 pub(crate) fn mesh() -> Mesh {
     let square = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)].map(|(x, z)| DVec3::new(x, 0.0, z));
     let part = |positions, triangles, colour| Part { positions, normals: &[], triangles, colour };
@@ -105,7 +105,7 @@ pub(crate) fn view() -> View {
     View::perspective(eye, target - eye, DVec3::Y, 0.75, aspect, 1.0, 30.0).expect("a sound view")
 }
 
-/// A map of 256² texels for the picture of the mesh.
+/// Settings for a map of 256² texels.
 pub(crate) fn settings() -> Settings {
     Settings::new(256, SIZE[1]).expect("sound sizes").with_border(4).expect("room for a border")
 }
@@ -117,7 +117,7 @@ pub(crate) fn fitted(light: &LightSpec, settings: &Settings) -> ShadowMap {
     fit(&view(), &light, &scene, settings).into_map().expect("one frustum does")
 }
 
-/// The triangle in each pixel.
+/// The triangle of each pixel.
 pub(crate) fn triangles(view: &View, tracer: &Tracer) -> Vec<u32> {
     let lens = Lens::of_view(view).expect("invertible");
     let ray = |x, y| lens.ray_through_pixel(x, y, SIZE[0], SIZE[1]).expect("in front");
@@ -127,28 +127,28 @@ pub(crate) fn triangles(view: &View, tracer: &Tracer) -> Vec<u32> {
         .collect()
 }
 
-/// The truth about the usual view of the mesh.
+/// The truth about the default view of the mesh.
 pub(crate) fn truth(light: &LightSpec, tracer: &Tracer) -> TruthImage {
     let triangles = triangles(&view(), tracer);
     TruthImage::trace(&view(), SIZE, &triangles, light, LAMP_NEAR, tracer).expect("sound inputs")
 }
 
-/// How a map is drawn and looked up.
+/// How a map is drawn and tested, with its faults.
 #[derive(Clone, Copy)]
 pub(crate) struct Fake {
     pub(crate) faces: Faces,
-    /// What is added to depths as they are drawn.
+    /// The depth bias in the map.
     pub(crate) bias: Bias,
-    /// What the look-up takes off the receiver's depth.
+    /// The receiver offset of the shadow test.
     pub(crate) look_up_bias: f64,
-    /// What it takes off besides, times how far the receiver's own depth can change within the filter.
+    /// An additional offset, times the receiver's depth change within the filter.
     pub(crate) look_up_slope: f64,
     /// The filter's texels a side: an odd number.
     pub(crate) filter: i64,
 }
 
 impl Default for Fake {
-    /// Nothing is added, and the look-up takes off just what it must.
+    /// Without a depth bias, and with the smallest receiver offset that suffices.
     fn default() -> Self {
         let bias = Bias { constant: 0.0, slope: 0.0 };
         Self { faces: Faces::All, bias, look_up_bias: 1e-5, look_up_slope: 1.0, filter: 1 }
@@ -172,7 +172,7 @@ impl Fake {
         (0..size * size).into_par_iter().map(|i| texel(i % size, i / size)).collect()
     }
 
-    /// The share of the light in each pixel.
+    /// The lit fraction of each pixel.
     pub(crate) fn light(&self, map: &ShadowMap, depths: &[f32], truth: &TruthImage, mesh: &Mesh) -> Vec<f32> {
         let (lens, size) = (lens_of(map), map.settings().map_size());
         let is_reversed = map.settings().clip().depth.is_reversed();
@@ -197,7 +197,7 @@ impl Fake {
         pixels.map(|surface| surface.map_or(0.0, |surface| share(surface.point, surface.triangle))).collect()
     }
 
-    /// Judges a map that was drawn and looked up like this.
+    /// Judges a map that was drawn and tested like this.
     pub(crate) fn judge(
         &self,
         map: &ShadowMap,
@@ -212,7 +212,7 @@ impl Fake {
         judge(truth, &self.hand_over(&Split::whole(), &[Some(drawn)], lit), tracer)
     }
 
-    /// What there is to judge.
+    /// The input to judge.
     pub(crate) fn hand_over<'a>(
         &self,
         split: &'a Split,
@@ -223,12 +223,12 @@ impl Fake {
         Rendered { split, maps, lit, faces: self.faces, depth_step: 1e-7, reach }
     }
 
-    /// Draws `casters` into a map, lights the usual mesh by it and compares.
+    /// Draws `casters` into a map, shadows the default mesh with it and compares.
     pub(crate) fn verdict(&self, light: &LightSpec, map: &ShadowMap, casters: &Mesh) -> Verdict {
         self.verdict_on(&mesh(), light, map, casters)
     }
 
-    /// The same with another mesh to light.
+    /// The same with another mesh of receivers.
     pub(crate) fn verdict_on(&self, mesh: &Mesh, light: &LightSpec, map: &ShadowMap, casters: &Mesh) -> Verdict {
         let tracer = Tracer::new(mesh).expect("it has triangles");
         let truth = truth(light, &tracer);
@@ -242,7 +242,7 @@ fn lens_of(map: &ShadowMap) -> Lens {
     Lens::new(map.clip_from_world_in(shadowfit::ClipSpace::WGPU)).expect("invertible")
 }
 
-/// How much the depth of the plane that was hit changes to the next column and to the next row.
+/// The depth slopes of the plane that was hit, per column and per row.
 fn depth_steps(lens: &Lens, size: u32, hit: &Hit) -> [f64; 2] {
     let place = lens.project(hit.point);
     [DVec3::X, DVec3::Y].map(|axis| {

@@ -1,12 +1,12 @@
-//! The projection of a map that is a frustum: one matrix.
+//! The projection of a frustum map: one matrix.
 
 use shadowfit::glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
 use shadowfit::{ClipSpace, ShadowMap};
 
 use super::projection::Projection;
 
-/// Rounding of one row of an f32 matrix at a point, relative to the sum of the magnitudes of its four terms: at most six
-/// units in the last place for the products and their sum, and two for what is rounded after the division by w.
+/// The rounding error of one row of an f32 matrix at a point, relative to the sum of the magnitudes of its four
+/// terms: at most six ulps for the products and their sum, and two for the roundings after the division by w.
 const F32_ROUNDING: f64 = 8.0 / 16_777_216.0;
 
 /// The projection of a fitted [`ShadowMap`].
@@ -18,7 +18,7 @@ pub struct Frustum {
     y: DVec4,
     depth: DVec4,
     w: DVec4,
-    /// What the f32 matrix takes positions relative to, in world space.
+    /// The origin of the f32 matrix, in world space.
     origin: DVec3,
 }
 
@@ -43,7 +43,7 @@ impl Projection for Frustum {
         self.map.settings().map_size()
     }
 
-    /// There is none behind the map, where w is not positive.
+    /// There is no such point behind the map, where w is not positive.
     fn place(&self, point: DVec3) -> Option<DVec3> {
         let point = point.extend(1.0);
         let w = self.w.dot(point);
@@ -53,8 +53,8 @@ impl Projection for Frustum {
     }
 
     fn on_plane(&self, point: DVec3, normal: DVec3, place: DVec2) -> Option<DVec3> {
-        // A column is a plane through the light, and so is a row: the point is where both meet the third plane. It is
-        // found relative to `point`, which lies close by, so that large coordinates cancel but once.
+        // A column is a plane through the light, and so is a row: the point is their intersection with the given
+        // plane. It is computed relative to `point`, which is nearby, so that large coordinates cancel only once.
         let column = self.x - (place.x / self.scale() - 1.0) * self.w;
         let row = self.y - (1.0 - place.y / self.scale()) * self.w;
         let [along_column, along_row] = steps_on_plane(column.xyz(), row.xyz(), normal)?;
@@ -63,7 +63,7 @@ impl Projection for Frustum {
         (found.is_finite() && self.w.dot(found.extend(1.0)) > 0.0).then_some(found)
     }
 
-    /// They are the same everywhere on the plane.
+    /// The slopes are constant over the plane.
     fn slopes(&self, point: DVec3, normal: DVec3) -> Option<DVec2> {
         let w = self.w.dot(point.extend(1.0));
         let gradient = |row: DVec4| (row.xyz() - row.dot(point.extend(1.0)) / w * self.w.xyz()) / w;
@@ -79,7 +79,7 @@ impl Projection for Frustum {
             terms.abs().element_sum() + row.dot(self.origin.extend(1.0)).abs()
         };
         let relative = F32_ROUNDING / self.w.dot(point.extend(1.0)).abs();
-        // Rounding of w counts for x, y and depth too, none of which is more than one after the division.
+        // The rounding of w also affects x, y and depth, none of which exceeds one after the division.
         let of = |row: DVec4| relative * (magnitude(row) + magnitude(self.w));
         (self.scale() * of(self.x).max(of(self.y)), of(self.depth))
     }
@@ -89,8 +89,8 @@ impl Projection for Frustum {
     }
 }
 
-/// The steps along a plane that change one of two functions by one and the other by none, from the functions' gradients
-/// and the plane's normal; `None` where there are no such steps.
+/// The vectors in a plane that change one of two functions by one and leave the other unchanged, from the
+/// functions' gradients and the plane's normal; `None` where there are none.
 fn steps_on_plane(first: DVec3, second: DVec3, normal: DVec3) -> Option<[DVec3; 2]> {
     let volume = first.dot(second.cross(normal));
     (volume != 0.0).then(|| [second.cross(normal) / volume, normal.cross(first) / volume])

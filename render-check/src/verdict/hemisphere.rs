@@ -1,4 +1,4 @@
-//! The projection of a map that is a paraboloid.
+//! The projection of a paraboloid map.
 
 use shadowfit::glam::{DVec2, DVec3};
 use shadowfit::omni::Paraboloid;
@@ -34,7 +34,7 @@ impl Projection for Hemisphere {
         self.map.settings().map_size()
     }
 
-    /// There is none for the light itself, and straight behind it.
+    /// There is none for the light itself, nor straight behind it.
     fn place(&self, point: DVec3) -> Option<DVec3> {
         let place = self.map.project(point)?;
         let across = DVec2::new(place.x, -place.y) * self.scale() + self.middle();
@@ -45,7 +45,7 @@ impl Projection for Hemisphere {
         let across = (place - self.middle()) / self.scale();
         let far_off = self.map.unproject(DVec3::new(across.x, -across.y, 1.0));
         let ray = far_off - self.map.position();
-        // Relative to `point`, which lies close by.
+        // Relative to `point`, which is nearby.
         let along = ray * (normal.dot(point - self.map.position()) / normal.dot(ray));
         let found = self.map.position() + along;
         (found.is_finite() && along.dot(ray) > 0.0).then_some(found)
@@ -56,27 +56,27 @@ impl Projection for Hemisphere {
         Some(slopes.abs() / (self.map.far() - self.map.near()))
     }
 
-    /// A caster that is cut finely enough is drawn so far from where it should be at most: see
-    /// [`Paraboloid::edge_error`]. One that is not may be missing from the map.
+    /// The largest deviation of a caster that is tessellated finely enough: see [`Paraboloid::edge_error`]. Other
+    /// casters may be missing from the map.
     fn rounding(&self, point: DVec3) -> (f64, f64) {
         let rounding = self.map.rounding(point);
         (rounding.texels + 4.0 / 3.0 * BENT, rounding.depth)
     }
 
-    /// The farthest depth of the plane within the reach of the bias.
+    /// The largest depth of the plane within the reach of the bias.
     fn slope_bias(&self, depth: f64, slopes: DVec2, slope: f64) -> f64 {
         let range = self.map.far() - self.map.near();
         let distance = depth + self.map.near() / range;
         let relative = slope * slopes.element_sum() / distance;
-        // What the plane curves within the reach is far less than the other part.
+        // The plane's curvature within the reach is negligible.
         let curved = 1.0 - 1.01 * relative - 1e-4;
         if curved > 0.0 { distance / curved - distance } else { f64::INFINITY }
     }
 
-    /// An edge that is cut as it must be is so many texels long at most, over which the distance r from the light changes by
-    /// Δ. Between its ends distances are drawn as their arithmetic mean and not as the harmonic one, see
-    /// [`Paraboloid::edge_depth_error`]: too far by (r₂ − r₁)²/(√r₂ + √r₁)², which is no more than Δ²/r of any r between.
-    /// Where Δ is not less than r the plane is seen from its edge, and the edge may begin at the light.
+    /// Along a tessellated edge of the largest length the distance r from the light changes by Δ. The rasteriser
+    /// interpolates distances linearly where the true ones are harmonic, see [`Paraboloid::edge_depth_error`]: too
+    /// far by (r₂ − r₁)²/(√r₂ + √r₁)², which is at most Δ²/r for any r in between. Where Δ ≥ r the light sees the
+    /// plane edge-on, and the edge may start at the light.
     fn bend(&self, depth: f64, slopes: DVec2) -> f64 {
         let change = self.map.largest_edge(BENT) * self.scale() * slopes.element_sum();
         let distance = depth + self.map.near() / (self.map.far() - self.map.near());
@@ -119,7 +119,7 @@ mod tests {
                 assert!(normal.dot(aside - point).abs() < 1e-12);
                 let there = hemisphere.place(aside).expect("in the map");
                 assert!((there.truncate() - place.truncate() - step).length() < 1e-9);
-                // Depth is curved by a few of its slopes in as many texels as the map has.
+                // Over the width of the map the depth slope changes by a few times its own size.
                 assert!(((there.z - place.z).abs() / 1e-3 - slope).abs() < 1e-4 * slope + 1e-7, "{there} {place}");
             }
         }

@@ -1,4 +1,4 @@
-//! The comparison of what was rendered with the truth.
+//! The comparison of a rendered image with the truth.
 
 use anyhow::{Result, ensure};
 use rayon::prelude::*;
@@ -12,13 +12,13 @@ use super::surface::Surface;
 use super::truth::{Truth, TruthImage};
 use crate::trace::Tracer;
 
-/// Compares what was rendered with the truth, pixel by pixel.
+/// Compares a rendered image with the truth, pixel by pixel.
 ///
-/// `tracer` must be the one that the truth was traced with.
+/// `tracer` must be the one that traced the truth.
 ///
 /// # Errors
 ///
-/// When the numbers of pixels, of parts or of texels differ, or when the filter reaches nowhere.
+/// When the numbers of pixels, parts or texels differ, or the filter's reach is invalid.
 pub fn judge(truth: &TruthImage, rendered: &Rendered<'_>, tracer: &Tracer) -> Result<Verdict> {
     let [width, height] = truth.size();
     ensure!(
@@ -68,7 +68,7 @@ impl Comparison<'_> {
             return Mark::Right;
         }
         let Some(map) = self.rendered.map_at(surface.point) else {
-            // Nothing was to shadow this part, and something does; there is no map that could have drawn a shadow.
+            // This part was left without a map because nothing should cast into it, yet something does.
             return if lit { Mark::FalseShadow } else { Mark::Missing };
         };
         if !lit && self.is_caster_missing(map, surface) {

@@ -1,30 +1,30 @@
-//! What is wrong with a pixel, if anything is.
+//! Marks: the verdict on a pixel.
 
 use serde::Serialize;
 
-/// What came of comparing one pixel.
+/// The verdict on a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// No surface, so nothing to compare.
+    /// No surface; not compared.
     Sky,
-    /// No light that a shadow could take away, so nothing to compare.
+    /// Not lit whatever casts shadows; not compared.
     Unlit,
-    /// As it ought to be.
+    /// Correct.
     Right,
-    /// Wrong, close in texels to an edge of the true shadow.
+    /// Wrong, within the filter's reach of a true shadow's edge.
     EdgeTexel,
-    /// Wrong, next in pixels to an edge of the true shadow.
+    /// Wrong, next to a pixel across a true shadow's edge.
     EdgePixel,
-    /// Dark, and ought to be lit.
+    /// In shadow, but should be lit.
     FalseShadow,
-    /// Lit, and ought to be dark.
+    /// Lit, but should be in shadow.
     FalseLight,
-    /// Lit, and ought to be dark, as the map does not hold a caster that it should.
+    /// Lit, but should be in shadow, because a caster is missing from the map.
     Missing,
 }
 
 impl Mark {
-    /// What is wrong here that no edge explains.
+    /// The fault, for wrong pixels away from edges.
     #[must_use]
     pub fn fault(self) -> Option<Fault> {
         match self {
@@ -36,14 +36,14 @@ impl Mark {
     }
 }
 
-/// What is wrong with a pixel, where no edge explains it.
+/// A fault: what is wrong with a pixel away from edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fault {
-    /// The light reaches the point, but the map has it in shadow: acne.
+    /// In shadow, but should be lit: shadow acne.
     FalseShadow,
-    /// Something shadows the point, but the map has it lit: a bias too large, or a map too coarse.
+    /// Lit, but should be in shadow: a bias too large (peter-panning), or a map too coarse.
     FalseLight,
-    /// The same, because the map does not hold a caster that it should.
+    /// The same, because a caster is missing from the map.
     Missing,
 }

@@ -1,34 +1,35 @@
-//! Missing casters: what a map ought to hold and does not, because it was clipped or culled.
+//! Missing casters: casters that a map should hold but does not, because they were clipped or culled.
 //!
-//! Whether a pixel of the picture is wrong says little about why. This looks into the map itself, at the texel that the
-//! pixel's point falls in, and flags it only where no sampling, bias or rounding can explain what is there.
+//! A wrong pixel says little about its cause. This test inspects the map itself, at the texel of the pixel's
+//! surface point, and reports a missing caster only where no sampling, bias or rounding can explain the stored
+//! depth.
 //!
-//! Nine rays of light go through the texel: through its centre, where the rasteriser samples, through four places a
-//! sixteenth of a texel off, so that a caster's edge close to the centre leaves no doubt of which side it is on, and
-//! through four a 256th off, the rasteriser's grid: a triangle thinner than a sixteenth, which the light sees nearly from its
-//! edge, may come to lie over the centre there, with a slope and a bias that are its own. Each
-//! ends on the receiver's tangent plane. A caster is missing where all of them meet drawn faces of one surface, where the
-//! farthest depth that these faces can have been stored with lies before the nearest depth of the receiver, and where the
-//! map yet holds a depth beyond that. It must lie before the receiver's own point, too: where the light grazes the receiver
-//! its tangent plane runs on behind other things within a texel, and what stands before it there, and beyond all that is
-//! seen, is rightly culled. One surface: the triangles touch the one that the centre's ray meets. Among leaves
-//! two may lie above each other with the edges of both at the centre, and a rasteriser sees between them.
+//! Nine light rays pass through the texel and end on the receiver's tangent plane: one through its centre, where
+//! the rasteriser samples; four offset by 1/16 texel, so that a caster's edge near the centre is clearly on one
+//! side; and four offset by 1/256 texel, the rasteriser's grid, as a triangle thinner than 1/16 texel, seen almost
+//! edge-on, may be snapped over the centre with its own slope and bias. A caster is missing where all rays hit
+//! drawn faces of one surface, the largest depth that these faces can have been stored with is less than the
+//! smallest depth of the receiver, and the map nevertheless holds a larger depth than that. The caster must also
+//! lie in front of the receiver's own point: at grazing incidence the tangent plane runs on behind other objects
+//! within a texel, and what stands in front of it there, beyond all visible surfaces, is rightly culled. One
+//! surface means that the triangles touch the one hit by the centre's ray: two leaves above each other may both
+//! have an edge at the centre, and a rasteriser sees between them.
 //!
-//! The farthest depth of a face is its depth plus
+//! The largest stored depth of a face is its depth plus
 //!
-//! - the rasteriser's bias, as it is stated;
-//! - its slope over a 256th of a texel, in columns and rows: a rasteriser rounds corners of triangles to such a grid,
-//!   half a step at most, which carries each point of a triangle no farther than its corners; the other half is left for
-//!   the interpolation of depth;
-//! - the step between depths that the map can store;
-//! - what the f32 matrix can be off by at that point;
-//! - in a map that bends lines, what a straight edge makes of depth.
+//! - the rasteriser's bias, as configured;
+//! - its slope over 1/256 texel, along columns and rows: a rasteriser snaps vertices to such a grid, by half a step
+//!   at most, which moves no point of a triangle farther than its vertices; the other half step is left for the
+//!   interpolation of depth;
+//! - the step between representable depths;
+//! - the rounding error of the f32 matrix at that point;
+//! - for paraboloids, the depth error of straight edges.
 //!
-//! The receiver's depth may be off by the step and by what the matrix is off as well.
+//! The receiver's depth may be off by the depth step and the matrix's rounding too.
 //!
-//! Of a map that is tested between two layers it is the first layer that is looked into. A caster belongs in the map where
-//! that holds it or something nearer, as with first depth; that the middle of the layers may let light past it all the same
-//! is a matter of the test, and false light.
+//! For maps tested between two layers the first layer is inspected: as with first depth, it must hold the caster or
+//! something nearer. Where the midpoint of the layers lets light past a caster all the same, that is a property of
+//! the test, and counts as false light.
 
 use shadowfit::glam::{DVec2, DVec3};
 
@@ -37,16 +38,16 @@ use super::rendered::DrawnMap;
 use super::surface::Surface;
 use crate::scene::Mesh;
 
-/// How far off a texel's centre the other rays go, in texels, where the f32 matrix is exact.
+/// The offset of the outer rays from the texel's centre, in texels, where the f32 matrix is exact.
 const OFF_CENTRE: f64 = 1.0 / 16.0;
 
 /// The rasteriser's grid, in projection.
 const SUBTEXEL: f64 = 1.0 / 256.0;
 
 impl Comparison<'_> {
-    /// Whether a map misses a caster in the texel that the point of a receiver falls in.
+    /// Whether a caster is missing from the map in the receiver's texel.
     ///
-    /// A point outside of the map counts as one before which nothing is stored.
+    /// Outside the map nothing is stored.
     pub(super) fn is_caster_missing(&self, map: &DrawnMap<'_>, receiver: &Surface) -> bool {
         let Some(place) = map.projection.place(receiver.point).map(|place| place.truncate()) else {
             return false;
@@ -69,16 +70,16 @@ impl Comparison<'_> {
             farthest_caster = farthest_caster.max(depths.caster);
             nearest_receiver = nearest_receiver.min(depths.receiver);
         }
-        // Where the light grazes the receiver, its tangent plane leaves the picture and the scene within a texel.
+        // At grazing incidence the tangent plane leaves image and scene within a texel.
         let own = self.nearest_receiver(map, receiver.point);
         own.is_some_and(|own| farthest_caster < own)
             && farthest_caster < nearest_receiver
             && nearest_receiver < stored
     }
 
-    /// At a place of the map, the farthest depth with which the caster there can have been stored, and the nearest that
-    /// the receiver's tangent plane can have; `None` where no drawn face stands before that plane, or one that the light
-    /// sees from its edge.
+    /// At a point of the map, the largest depth that the caster there can have been stored with, and the smallest
+    /// depth of the receiver's tangent plane; `None` where no drawn face is in front of that plane, or one that is
+    /// seen edge-on from the light.
     fn caster_and_receiver(&self, map: &DrawnMap<'_>, receiver: &Surface, place: DVec2) -> Option<Depths> {
         let (projection, depth_step) = (map.projection, self.rendered.depth_step);
         let point = projection.on_plane(receiver.point, receiver.normal, place)?;
@@ -97,24 +98,24 @@ impl Comparison<'_> {
         })
     }
 
-    /// The nearest depth that a receiver at a point can have.
+    /// The smallest depth that a receiver at a point can have.
     fn nearest_receiver(&self, map: &DrawnMap<'_>, point: DVec3) -> Option<f64> {
         let (_, rounding) = map.projection.rounding(point);
         Some(map.projection.place(point)?.z - self.rendered.depth_step - rounding)
     }
 }
 
-/// What one ray of light says.
+/// The result of one light ray.
 struct Depths {
     /// The caster's triangle.
     triangle: usize,
-    /// The farthest depth that the caster can have been stored with.
+    /// The largest depth that the caster can have been stored with.
     caster: f64,
-    /// The nearest depth that the receiver can have.
+    /// The smallest depth that the receiver can have.
     receiver: f64,
 }
 
-/// Whether two triangles are the same or have a corner in common.
+/// Whether two triangles are the same or share a corner.
 fn touch(mesh: &Mesh, one: usize, other: usize) -> bool {
     let (a, b) = (mesh.corners(one), mesh.corners(other));
     a.iter().any(|corner| b.contains(corner))
@@ -144,14 +145,14 @@ mod tests {
         assert!(!touch(&mesh, 0, 4) && !touch(&mesh, 2, 4));
     }
 
-    /// Two triangles with a common corner, and between them one that the light sees nearly from its edge: a 25th of a texel
-    /// wide where it passes a 500th of a texel beside a texel's centre, and with a slope whose bias is more than there is
-    /// room for. A rasteriser may take it for what the centre shows.
+    /// Two triangles with a common corner, and between them one seen almost edge-on from the light: 1/25 texel wide
+    /// where it passes 1/500 texel beside a texel's centre, with a slope whose bias exceeds the distance to the
+    /// receiver. A rasteriser may draw it over the centre.
     #[test]
     fn a_sliver_beside_a_texels_centre_may_be_what_is_stored() {
         let map = fake::fitted(&SUN, &fake::settings().with_warp(shadowfit::Warp::Uniform));
         let centre = DVec2::splat(128.5);
-        // From columns and rows beside the centre, and depth.
+        // From offsets in columns and rows from the centre, and depth.
         let at = |column: f64, row: f64, depth: f64| {
             let clip = (centre + DVec2::new(column, row)) / 128.0 - 1.0;
             map.clip_from_world().inverse().project_point3(DVec3::new(clip.x, -clip.y, depth))
@@ -186,7 +187,7 @@ mod tests {
         };
         let (left, sliver, right) = ([0, 1, 3], [0, 1, 2], [0, 2, 4]);
         assert!(!is_missing(&[left, sliver, right], 1.0));
-        // Without a bias it is no deeper than its corners, and what should be stored is missing for certain.
+        // Without a bias it is no deeper than its corners, so the caster is certainly missing.
         assert!(is_missing(&[left, sliver, right], 0.0));
     }
 }

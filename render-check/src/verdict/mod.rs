@@ -1,12 +1,12 @@
-//! What a renderer made of a map, against ray-traced truth.
+//! The verdict: a rendered image with shadows compared with ray-traced truth.
 //!
-//! A renderer draws a scene from a view with shadows from a fitted map and hands over what it has: which triangle each
-//! pixel shows, how much light it let through there, and the map as it was drawn. [`TruthImage`] finds, in f64, what the
-//! light really does at each of these points; [`judge`] compares the two and says of every wrong pixel why it is wrong:
+//! A renderer draws a scene with shadows from a fitted map and hands over the visible triangle and the lit fraction
+//! of each pixel, and the map as drawn. [`TruthImage`] holds the true shadows at the same surface points, by rays
+//! in f64; [`judge`] compares the two and classifies every wrong pixel:
 //!
-//! 1. **missing caster**: the map does not hold something that it should. A fitted map never has any;
-//! 2. **edge**: the edge of a true shadow is closer than a map of this resolution can tell, or next to the pixel;
-//! 3. **false shadow** and **false light**: the rest.
+//! 1. **missing caster**: a caster is missing from the map. With a fitted map this never happens;
+//! 2. **edge**: the edge of a true shadow is closer than the map can resolve, or next to the pixel;
+//! 3. **false shadow** (acne) and **false light** (light leaks): the rest.
 
 mod cluster;
 mod comparison;

@@ -1,4 +1,4 @@
-//! What is told of a comparison: the counts of the pixels' marks, the worst place, and how coarse the map is.
+//! The results of a comparison: counts of marks, the worst cluster, and the aliasing.
 
 use serde::Serialize;
 
@@ -14,27 +14,27 @@ pub struct Counts {
     pub pixels: usize,
     /// Those without a surface.
     pub sky: usize,
-    /// Those that the light does not reach, whatever stands where, and those that only something nearer to a lamp than its
-    /// map begins keeps it from.
+    /// Those that are unlit whatever casts shadows, and those shadowed only by something closer to a local light
+    /// than its near plane.
     pub unlit: usize,
-    /// The rest: those that are compared.
+    /// The rest, which are compared.
     pub compared: usize,
-    /// Those of them that are truly in shadow.
+    /// Compared pixels that are truly in shadow.
     pub shadowed: usize,
-    /// Dark, and ought to be lit.
+    /// In shadow, but should be lit.
     pub false_shadow: usize,
-    /// Lit, and ought to be dark, though the map holds what it should.
+    /// Lit, but should be in shadow, although no caster is missing.
     pub false_light: usize,
-    /// Wrong, close in texels to an edge of the true shadow.
+    /// Wrong, within the filter's reach of a true shadow's edge.
     pub edge_texel: usize,
-    /// Wrong, next in pixels to an edge of the true shadow, and not counted in `edge_texel`.
+    /// Wrong, next to a pixel across a true shadow's edge, and not counted in `edge_texel`.
     pub edge_pixel: usize,
-    /// Lit, and ought to be dark, as the map does not hold a caster that it should.
+    /// Lit, but should be in shadow, because a caster is missing from the map.
     pub missing: usize,
 }
 
 impl Counts {
-    /// Counts marks. `shadowed` is how many of the compared pixels are truly in shadow.
+    /// Counts marks. `shadowed` is the number of compared pixels that are truly in shadow.
     pub(super) fn of(marks: &[Mark], shadowed: usize) -> Self {
         let mut counts = Self { pixels: marks.len(), shadowed, ..Self::default() };
         for mark in marks {
@@ -53,7 +53,7 @@ impl Counts {
         counts
     }
 
-    /// Wrong pixels that no edge explains.
+    /// Wrong pixels away from edges.
     #[must_use]
     pub fn faults(&self) -> usize {
         self.false_shadow + self.false_light + self.missing
@@ -65,28 +65,28 @@ impl Counts {
         self.edge_texel + self.edge_pixel
     }
 
-    /// All wrong pixels. How coarse a map is shows at the edges of its shadows.
+    /// All wrong pixels. A coarse map shows at the edges of its shadows.
     #[must_use]
     pub fn wrong(&self) -> usize {
         self.faults() + self.edges()
     }
 
-    /// One of the counts as a part of the compared pixels, 0 to 1; 0 where none were compared.
+    /// A count as a fraction of the compared pixels, 0 to 1; 0 where none were compared.
     #[must_use]
     pub fn fraction(&self, count: usize) -> f64 {
         share(count, self.compared)
     }
 }
 
-/// How much larger a texel is than a pixel, over the compared pixels: see [`shadowfit::ShadowMap::aliasing`]. Infinite outside
-/// of the map.
+/// The aliasing over the compared pixels, texel size over pixel size: see [`shadowfit::ShadowMap::aliasing`].
+/// Infinite outside the map.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Aliasing {
     /// The largest.
     pub worst: f64,
-    /// Half of the pixels have no more.
+    /// The median.
     pub median: f64,
-    /// 95 of 100 pixels have no more.
+    /// The 95th percentile.
     pub p95: f64,
 }
 
@@ -99,22 +99,22 @@ impl Aliasing {
     }
 }
 
-/// What came of comparing a rendered picture with the truth.
+/// The result of comparing a rendered image with the truth.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Verdict {
     /// Numbers of pixels.
     pub counts: Counts,
-    /// Where most faults are; `None` where there are none.
+    /// The largest cluster of faults; `None` without faults.
     pub worst_cluster: Option<Cluster>,
-    /// How coarse the map is; `None` where nothing was compared.
+    /// The aliasing; `None` where nothing was compared.
     pub aliasing: Option<Aliasing>,
-    /// What came of each pixel, row by row from the top. It is not serialised.
+    /// The mark of each pixel, row by row from the top. Not serialised.
     #[serde(skip)]
     pub marks: Vec<Mark>,
 }
 
 impl Verdict {
-    /// Where there is no map: all counts as lit, and each true shadow is missing.
+    /// The verdict without a map: everything counts as lit, and every true shadow as missing.
     #[must_use]
     pub fn without_map(truth: &TruthImage) -> Self {
         let mark = |pixel: &Truth| match (pixel.surface(), pixel.compared()) {

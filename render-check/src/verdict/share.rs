@@ -1,6 +1,6 @@
-//! Parts of a whole.
+//! Fractions of counts.
 
-/// A part of a whole, 0 to 1; 0 where there is nothing.
+/// `part` over `whole`, 0 to 1; 0 where both are zero.
 #[must_use]
 pub fn share(part: usize, whole: usize) -> f64 {
     if whole == 0 { 0.0 } else { part as f64 / whole as f64 }

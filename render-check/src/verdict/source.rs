@@ -1,4 +1,4 @@
-//! The light as the source of rays: what it reaches, and what stands in its way.
+//! Light rays: what a light reaches, and what blocks it.
 
 use anyhow::Result;
 use shadowfit::Light;
@@ -8,23 +8,23 @@ use super::surface::Surface;
 use crate::scene::LightSpec;
 use crate::trace::{Ray, Tracer};
 
-/// What the light does to a point of a surface.
+/// How a light reaches a surface point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Illumination {
-    /// It does not reach the point, whatever stands where: the side that is seen is turned away from the light, or the
-    /// point lies outside of the light's cone or range, or nearer to a lamp than its map begins. A renderer shades such
-    /// points black without asking the map, so they are not compared.
+    /// Unlit whatever casts shadows: the visible side faces away from the light, or the point is outside the
+    /// light's cone or range, or closer to a local light than its near plane. A renderer shades such points black
+    /// without a shadow test, so they are not compared.
     Unlit,
-    /// Something stands in its way.
+    /// In shadow: something blocks the light.
     Shadow,
-    /// It reaches the point.
+    /// Lit.
     Lit,
-    /// All that stands in its way is nearer to the lamp than its map begins. No caster is to be there, and where one is,
-    /// it casts or does not: a map begins at a plane and holds some of what is so near. Such points are not compared.
+    /// Blocked only by something closer to a local light than its near plane. Casters should not be there; one that
+    /// is may cast or not, as the near plane of a map cuts through it. Such points are not compared.
     Either,
 }
 
-/// A light together with the distance at which its shadow map begins.
+/// A light with its near plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Source {
     spec: LightSpec,
@@ -36,13 +36,13 @@ impl Source {
     ///
     /// # Errors
     ///
-    /// When the light makes no sense.
+    /// When the light is invalid.
     pub(super) fn new(spec: &LightSpec, near: f64) -> Result<Self> {
         Ok(Self { spec: *spec, light: spec.to_light(near)? })
     }
 
-    /// Whether any of its light falls on the side of the surface that is seen, were nothing else there: the side is
-    /// turned to the light, within its range and its cone, and not so near to it that the map has not begun.
+    /// Whether an unblocked light would reach the visible side of the surface: it faces the light, within its cone
+    /// and between its near plane and its range.
     pub(super) fn reaches(&self, surface: &Surface) -> bool {
         let direction_to_light = self.light.direction_from(surface.point);
         surface.normal.dot(direction_to_light) > 0.0
@@ -62,8 +62,7 @@ impl Source {
         (self.light.near()..=range).contains(&self.distance_from(point))
     }
 
-    /// Whether anything stands between a point on a surface with this unit normal, on the lit side, and the light, and
-    /// whether it is as far from a lamp as casters are to be.
+    /// How the light reaches a surface point with this unit normal, which is on the lit side.
     pub(super) fn illumination(&self, tracer: &Tracer, point: DVec3, normal: DVec3) -> Illumination {
         let (origin, direction) = (tracer.off_surface(point, normal), self.light.direction_from(point));
         let is_blocked = |length| length > 0.0 && tracer.is_blocked(&Ray { origin, direction, length });
@@ -71,21 +70,21 @@ impl Source {
         if is_blocked(distance - self.light.near()) {
             Illumination::Shadow
         } else if self.light.position().is_some() && is_blocked(distance - tracer.surface_offset()) {
-            // What is a hair from the lamp is on neither side of it.
+            // A surface through the light itself is on neither side of it.
             Illumination::Either
         } else {
             Illumination::Lit
         }
     }
 
-    /// The ray of light that ends at a point: from where a lamp's map begins, or from beyond the scene for a sun.
-    /// `None` for a point nearer to a lamp than that.
+    /// The light ray that ends at a point, starting at the near plane of a local light, or outside the scene for a
+    /// sun. `None` for a point closer to a local light than its near plane.
     pub(super) fn ray_to(&self, tracer: &Tracer, point: DVec3) -> Option<Ray> {
         let direction_to_light = self.light.direction_from(point);
         let length = if self.light.position().is_some() {
             self.distance_from(point) - self.light.near()
         } else {
-            // Half a diagonal leads out of the box from its middle; a whole one leaves no doubt.
+            // Half a diagonal leads out of the box from its middle; a whole one is safe.
             let (min, max) = tracer.bounds();
             point.distance(0.5 * (min + max)) + (max - min).length()
         };

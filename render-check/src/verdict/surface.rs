@@ -1,4 +1,4 @@
-//! The point of a surface that a pixel of the camera's picture shows.
+//! The surface point visible in a pixel.
 
 use anyhow::Result;
 use shadowfit::View;
@@ -7,28 +7,28 @@ use shadowfit::glam::{DMat4, DVec2, DVec3};
 use crate::scene::Mesh;
 use crate::trace::{Lens, Ray};
 
-/// A point of a triangle as the camera sees it.
+/// A visible surface point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
-    /// Where it is, in world space.
+    /// Its position, in world space.
     pub point: DVec3,
-    /// The triangle's unit normal on the side that is seen.
+    /// The triangle's unit normal, on the visible side.
     pub normal: DVec3,
-    /// Which triangle of the mesh.
+    /// The index of its triangle.
     pub triangle: usize,
 }
 
 impl Surface {
-    /// Where the ray meets a triangle that a renderer saw there.
+    /// The point where the ray hits the triangle that a renderer drew there.
     ///
-    /// Renderers move the corners of triangles to a grid of a 256th of a pixel, so the ray may pass a hair beside the
-    /// triangle: then it is the point on the triangle's edge that the renderer must have meant.
+    /// Rasterisers snap vertices to a grid of 1/256 pixel, so the ray may just miss the triangle: then it is the
+    /// nearest point on the triangle's edge.
     #[must_use]
     pub fn seen(mesh: &Mesh, triangle: usize, ray: &Ray) -> Self {
         let corners = mesh.corners(triangle);
         let [a, b, c] = corners.map(|corner| corner - ray.origin);
-        // Barycentric coordinates, but for a common factor: volumes spanned by the ray and an edge. Where the triangle
-        // is seen from behind all are negative; where it is seen from its edge all vanish.
+        // Barycentric coordinates up to a common factor: volumes spanned by the ray and an edge. All are negative
+        // for back faces, and zero for triangles seen edge-on.
         let volumes =
             DVec3::new(ray.direction.dot(b.cross(c)), ray.direction.dot(c.cross(a)), ray.direction.dot(a.cross(b)));
         let facing = if volumes.element_sum() < 0.0 { -1.0 } else { 1.0 };
@@ -42,17 +42,17 @@ impl Surface {
     }
 }
 
-/// The camera's rays through the exact middles of pixels, where a renderer samples.
+/// The camera's rays through exact pixel centres, where a rasteriser samples.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PixelRays {
-    /// Positions relative to the eye, so that cameras far from the origin see as sharply as others.
+    /// A lens relative to the eye, so that cameras far from the origin lose no precision.
     lens: Lens,
     eye: DVec3,
     size: DVec2,
 }
 
 impl PixelRays {
-    /// The rays of a picture of `width` × `height` pixels.
+    /// The rays of an image of `width` × `height` pixels.
     ///
     /// # Errors
     ///

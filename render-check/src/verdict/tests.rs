@@ -1,4 +1,4 @@
-//! Verdicts on a renderer whose every fault is known.
+//! Verdicts on a renderer with known faults.
 
 use anyhow::Result;
 use shadowfit::glam::DVec3;
@@ -18,7 +18,7 @@ fn uniform() -> Settings {
     fake::settings().with_warp(Warp::Uniform)
 }
 
-/// The verdict on a map without faults but for what `fake` does.
+/// The verdict on a correct map, except for the faults of `fake`.
 fn verdict(fake: &Fake, light: &LightSpec, settings: &Settings) -> Verdict {
     fake.verdict(light, &fake::fitted(light, settings), &fake::mesh())
 }
@@ -59,7 +59,7 @@ fn shadows_thinner_than_a_texel_are_all_edge() {
     for filter in [1, 3, 5] {
         let fake = Fake { filter, ..Fake::default() };
         let counts = fake.verdict_on(&fence, &SUN, &fake::fitted(&SUN, &uniform()), &fence).counts;
-        // A wide filter lets nearly all of the light through: what is dark in truth comes out lit.
+        // A wide filter lets nearly all light through: true shadows come out lit.
         assert!(counts.faults() == 0 && counts.edges() > 50, "{filter}: {counts:?}");
     }
 }
@@ -85,7 +85,7 @@ fn a_caster_that_is_not_in_the_map_is_missing() {
         assert!(counts.edges() < 4 * whole.edges(), "{light}: {counts:?}");
         let cluster = verdict.worst_cluster.expect("there are faults");
         assert_eq!(cluster.fault, Fault::Missing);
-        // The light's ray through the middle of the patch goes through the slab.
+        // The light ray through the middle of the patch passes through the slab.
         let position = DVec3::from(cluster.position);
         let to_light = light.to_light(LAMP_NEAR).expect("sound").direction_from(position);
         let through = position + (1.5 - position.y) / to_light.y * to_light;
@@ -96,7 +96,7 @@ fn a_caster_that_is_not_in_the_map_is_missing() {
 
 #[test]
 fn a_map_that_holds_nothing_misses_all_its_casters_without_any_bias() {
-    // What is stored is the receiver's own depth, rounded to f32 to either side.
+    // The map stores the receiver's own depth, rounded to f32 in either direction.
     let fake = Fake { look_up_bias: 0.0, ..Fake::default() };
     let verdict = fake.verdict(&SUN, &fake::fitted(&SUN, &uniform()), &fake::floor());
     let counts = verdict.counts;
@@ -148,7 +148,7 @@ fn too_small_a_bias_is_false_shadow() {
         let counts = verdict.counts;
         assert!(counts.false_shadow > counts.compared / 4, "{light}: {counts:?}");
         assert_eq!(counts.missing, 0, "{light}: {counts:?}");
-        // On the flat floor and on the convex ball, the edge rule hides what is close to a shadow and no more.
+        // On the flat floor and on the convex ball, the edge rule hides faults close to a shadow and no others.
         assert!(counts.edges() < counts.false_shadow / 4, "{light}: {counts:?}");
         assert_eq!(verdict.worst_cluster.map(|cluster| cluster.fault), Some(Fault::FalseShadow));
     }

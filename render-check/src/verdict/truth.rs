@@ -1,4 +1,4 @@
-//! What every pixel of the camera's picture ought to show: the surface there, and what the light does to it.
+//! The truth about every pixel of the camera's image: its surface point, and whether the light reaches it.
 
 use anyhow::{Result, bail, ensure};
 use rayon::prelude::*;
@@ -12,17 +12,17 @@ use crate::output::progress;
 use crate::scene::LightSpec;
 use crate::trace::Tracer;
 
-/// What a pixel shows.
+/// The truth about a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Truth {
     /// No surface.
     Sky,
-    /// A point of a surface, and what the light does there.
+    /// A visible surface point, and how the light reaches it.
     Seen(Surface, Illumination),
 }
 
 impl Truth {
-    /// The point that is seen, if any.
+    /// The visible surface point, if any.
     #[must_use]
     pub fn surface(&self) -> Option<&Surface> {
         match self {
@@ -31,7 +31,8 @@ impl Truth {
         }
     }
 
-    /// The point that is seen and whether the light reaches it, where a renderer must ask the map to know.
+    /// The visible surface point and whether it is lit, where that depends on shadows; `None` for pixels that are
+    /// not compared.
     #[must_use]
     pub fn compared(&self) -> Option<(&Surface, bool)> {
         match self {
@@ -44,13 +45,13 @@ impl Truth {
 
 /// The truth about one view and one light.
 ///
-/// Surfaces are those that a renderer saw, so that what is compared is the shadow alone; where they are, and what the
-/// light does there, is found in f64.
+/// The visible triangles are the renderer's, so that only shadows are compared; surface points and shadows are
+/// computed in f64.
 ///
-/// A point is in shadow where the ray from it to the light meets a triangle, from either side. The ray starts a hair off
-/// the surface, along the face's normal on the side that is seen ([`Tracer::off_surface`]): no triangle casts a shadow
-/// on itself, nor on another in the same plane. To a lamp the ray ends where the lamp's map begins, and what lies between
-/// there and the lamp leaves it open which the point is.
+/// A point is in shadow where the ray from it to the light hits a triangle, front or back. The ray starts slightly
+/// off the surface, along the face's normal on the visible side ([`Tracer::off_surface`]), so that no triangle
+/// shadows itself or a coplanar one. For a local light the ray ends at its near plane; points blocked only beyond
+/// that are not compared ([`Illumination::Either`]).
 #[derive(Clone, Debug)]
 pub struct TruthImage {
     view: View,
@@ -60,16 +61,15 @@ pub struct TruthImage {
 }
 
 impl TruthImage {
-    /// Traces a picture of `width` × `height` pixels.
+    /// Traces an image of `width` × `height` pixels.
     ///
-    /// `triangles` says which triangle of the tracer's mesh the renderer saw at the middle of each pixel, row by row from
-    /// the top, and [`Surfaces::SKY`] where it saw none. `lamp_near` is the distance from a lamp, in world units, at which its
-    /// shadow map begins; a sun has none.
+    /// `triangles` holds the index of the visible triangle at the centre of each pixel, row by row from the top,
+    /// and [`Surfaces::SKY`] where there is none. `lamp_near` is the near plane of a local light, in world units; a
+    /// sun has none.
     ///
     /// # Errors
     ///
-    /// When the numbers of pixels differ, when a triangle is none of the mesh's, or when the light or the view makes no
-    /// sense.
+    /// When the numbers of pixels differ, a triangle is not one of the mesh, or light or view are invalid.
     pub fn trace(
         view: &View,
         [width, height]: [u32; 2],
@@ -126,27 +126,26 @@ impl TruthImage {
         &self.pixels
     }
 
-    /// How many pixels are compared.
+    /// The number of compared pixels.
     #[must_use]
     pub fn compared(&self) -> usize {
         self.pixels.iter().filter_map(Truth::compared).count()
     }
 
-    /// The share of the compared pixels for which something is so, 0 to 1; `is_so` has an entry for each pixel.
+    /// The fraction of compared pixels for which `is_so` is true, 0 to 1; it has an entry for each pixel.
     #[must_use]
     pub fn share(&self, is_so: &[bool]) -> f64 {
         let compared = self.pixels.iter().zip(is_so).filter(|(pixel, _)| pixel.compared().is_some());
         share(compared.filter(|&(_, &is_so)| is_so).count(), self.compared())
     }
 
-    /// How many of them are in shadow.
+    /// The number of compared pixels in shadow.
     #[must_use]
     pub fn shadowed(&self) -> usize {
         self.pixels.iter().filter_map(Truth::compared).filter(|&(_, lit)| !lit).count()
     }
 
-    /// The share of the light that arrives in each pixel, row by row from the top: 1 where the light reaches what is
-    /// seen, else 0. It is what a perfect renderer would hand over.
+    /// The true lit fraction of each pixel, row by row from the top: 1 where the surface is lit, else 0.
     #[must_use]
     pub fn lit(&self) -> Vec<f32> {
         self.pixels
@@ -160,7 +159,7 @@ impl TruthImage {
         &self.source
     }
 
-    /// The up to eight pixels around the one at `index`.
+    /// The up to eight neighbours of the pixel at `index`.
     pub(super) fn around(&self, index: usize) -> impl Iterator<Item = &Truth> {
         neighbours(self.size, index).map(|neighbour| &self.pixels[neighbour])
     }
@@ -174,7 +173,7 @@ fn illumination(source: &Source, tracer: &Tracer, surface: &Surface) -> Illumina
     }
 }
 
-/// The indices of the up to eight pixels around one, in a picture of `width` × `height` pixels stored row by row.
+/// The indices of a pixel's up to eight neighbours, in an image of `width` × `height` pixels stored row by row.
 pub(super) fn neighbours([width, height]: [u32; 2], index: usize) -> impl Iterator<Item = usize> {
     let (width, height) = (width as usize, height as usize);
     let (x, y) = (index % width, index / width);

@@ -1,4 +1,5 @@
-//! The cases: a light before a built-in scene for each effect, where a plan leaves it out and where it asks for it.
+//! The cases: for each effect one light of a built-in scene where the plan does without it, and one where the plan
+//! uses it.
 
 use anyhow::{Context, Result};
 use shadowfit::{Filter, Origin, Settings, View, Warp, plan::Budget};
@@ -6,18 +7,18 @@ use shadowfit::{Filter, Origin, Settings, View, Warp, plan::Budget};
 use super::effect::Effect;
 use crate::scene::{LightSpec, LoadedScene};
 
-/// A light of a scene, for an effect.
+/// One light of a scene, for one effect.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// What is left out or asked for.
+    /// The effect.
     pub effect: Effect,
-    /// Whether a plan is expected to ask for it.
+    /// Whether the plan is expected to use it.
     pub is_asked_for: bool,
     /// A built-in scene.
     pub scene: &'static str,
-    /// The light, as the command line spells it.
+    /// The light, in the command line's spelling.
     pub light: &'static str,
-    /// The most texels a side.
+    /// The largest map size, in texels.
     pub size: u32,
     /// The widest filter.
     pub filter: Filter,
@@ -46,7 +47,7 @@ impl Case {
 
     /// The budget.
     pub(super) fn budget(&self, image_height: u32) -> Result<Budget> {
-        // Only the camera of that warp is moved back by a plan.
+        // A plan moves the virtual camera back for this warp alone.
         let warp = if self.effect == Effect::BackShift { Warp::Perspective } else { Warp::default() };
         let settings = Settings::new(self.size, image_height)?.with_warp(warp).with_origin(Origin::Eye);
         Ok(Budget::new(settings).with_filter(self.filter))
@@ -55,38 +56,38 @@ impl Case {
 
 const WIDE: Filter = Filter::Pcf(5);
 
-/// All of them, effect by effect: first where it is left out, then where it is asked for.
+/// All cases, effect by effect: first the one where the plan does without it, then the one where the plan uses it.
 pub const CASES: [Case; 22] = [
-    // A lamp behind the viewer, whose light ends before the view begins.
+    // A light behind the viewer whose range ends in front of the near plane.
     Case::new(Effect::Map, false, "street", "point:0,3,16/6", 1024),
     Case::new(Effect::Map, true, "chess-board", "sun:-0.8,0.6,0.2", 512),
-    // Fine enough without a warp.
+    // Without a warp the texels are small enough.
     Case::new(Effect::Warp, false, "room", "sun:-0.8,0.42,-0.12", 1024),
-    // The far end of the board is as coarse in both; all that is nearer is not.
+    // The far end of the board has the same aliasing in both; everything nearer differs.
     Case::new(Effect::Warp, true, "chess-board", "sun:0.8,0.6,-0.4", 512),
-    // All that casts into the view is ahead of the viewer; not so where the sun stands behind.
+    // Under the first sun all casters are ahead of the viewer; under the second, which is behind, they are not.
     Case::new(Effect::BackShift, false, "street", "sun:0.62,0.72,-0.42", 1024),
     Case::new(Effect::BackShift, true, "chess-board", "sun:-0.8,0.6,0.2", 512),
-    // One frustum holds all of the table, and none what is around a lamp in the room.
+    // One frustum covers the table; none covers what surrounds the light in the room.
     Case::new(Effect::SeveralMaps, false, "table", "point:-1.1,1.9,0.9", 1024),
     Case::new(Effect::SeveralMaps, true, "room", "point:0,1.5,-2.5", 512),
-    // A lamp in the middle of the picture needs all six; one at the near side of a room does not.
+    // A light in the middle of the image needs all six faces; one at the near side of a room does not.
     Case::new(Effect::FaceDropping, false, "chess-board", "point:0,0.8,-8", 512),
     Case::new(Effect::FaceDropping, true, "room", "point:0,1.5,-2.5", 512),
     Case::new(Effect::SecondDepth, false, "cloud", "sun:0.5,1,0.35", 512),
     Case::new(Effect::SecondDepth, true, "room", "point:0,1.5,-2.5", 512),
-    // Sheets in maps finer than the pixels, and in coarser ones under a sun that grazes the ground.
+    // Open sheets: first in maps finer than the pixels, then in coarser maps under a sun at grazing incidence.
     Case::new(Effect::VirtualSamples, false, "leaves", "sun:-0.55,1,-0.25", 1024).filtered(Filter::Nearest),
     Case::new(Effect::VirtualSamples, true, "leaves", "sun:-1,0.35,-0.4", 512),
-    // Texels no larger than pixels need no wide filter, and larger ones need one.
+    // Texels no larger than pixels need no wide filter; larger ones do.
     Case::new(Effect::Filter, false, "leaves", "sun:-0.55,1,-0.25", 1024).filtered(WIDE),
     Case::new(Effect::Filter, true, "table", "sun:-0.7,1,0.4", 256),
     Case::new(Effect::FullSize, false, "table", "sun:-0.7,1,0.4", 4096),
     Case::new(Effect::FullSize, true, "chess-board", "sun:0.8,0.6,-0.4", 512),
-    // All there is casts into view, and of a street far less does around one lamp.
+    // In the first scene every object is a caster; around one light of a street far fewer are.
     Case::new(Effect::Culling, false, "cloud", "sun:0.5,1,0.35", 512),
     Case::new(Effect::Culling, true, "street", "point:2,5,-12/30", 512),
-    // A map without a warp does not follow the view's near plane.
+    // An unwarped map does not depend on the view's near plane.
     Case::new(Effect::Narrowing, false, "chess-board", "spot:6,6,-1/0,0,-5/50", 1024),
     Case::new(Effect::Narrowing, true, "street", "sun:0.62,0.72,-0.42", 1024),
 ];

@@ -1,49 +1,49 @@
-//! What a plan can leave out, and what each is bought with.
+//! The parts of a plan that can be switched off, and what each is for.
 
 use std::fmt;
 
 use serde::Serialize;
 
-/// Something that a plan asks for or leaves out.
+/// Something that a plan uses or does without.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Effect {
-    /// Any map at all.
+    /// Having a map at all.
     Map,
     /// The best warp, against a uniform map of the same size.
     Warp,
-    /// The warp's camera moved back, against one that stays.
+    /// The virtual camera moved back, against one at the eye.
     BackShift,
     /// A map for each face of a cube, against one map.
     SeveralMaps,
-    /// The faces of a cube that have nothing to show left out, against all six.
+    /// Cube faces without receivers or casters dropped, against all six faces.
     FaceDropping,
     /// Second depth without a bias, against first depth with one.
     SecondDepth,
     /// Virtual samples, against first depth with a bias.
     VirtualSamples,
-    /// The widest filter, against a narrower one: the nearest texel, or the least that is enough.
+    /// The widest filter, against a narrower one: the nearest texel, or the narrowest that suffices.
     Filter,
     /// The largest size, against a smaller one.
     FullSize,
-    /// Only casters that can touch what is seen, against all there are.
+    /// Culling of casters against H, against drawing all objects.
     Culling,
-    /// Maps fitted to the depths of what receives in view, against all of the view.
+    /// Maps fitted to the depth range of the receivers in view, against the whole view.
     Narrowing,
 }
 
-/// What an effect is for.
+/// The purpose of an effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Buys {
-    /// Fewer wrong pixels or smaller texels, for more work.
+    /// Fewer wrong pixels or smaller texels, at more work.
     Accuracy,
-    /// Less work, for the same pixels.
+    /// Less work, with the same pixels.
     Work,
 }
 
 impl Effect {
-    /// What it is for.
+    /// Its purpose.
     #[must_use]
     pub fn buys(self) -> Buys {
         match self {

@@ -1,5 +1,5 @@
-//! What a plan is worth: for each thing that it can leave out, a light where it does and one where it asks for it, each
-//! drawn with it and without it and held against the truth.
+//! Ablation of plans: each effect that a plan can do without is drawn with it and without it and compared with
+//! ray-traced truth, for one light where the plan uses it and one where it does not.
 
 mod args;
 mod cases;
@@ -27,16 +27,16 @@ use crate::verdict::{Aliasing, Verdict, share};
 use setup::{Maps, Setup};
 use sides::Sides;
 
-/// Where a plan leaves something out, so many more of the compared pixels may be wrong than with it, as a part of them:
-/// twice the most that was measured, 0.1 % where a map of 512² texels takes the place of one of 4096² in a picture 240
-/// pixels wide.
+/// Where a plan does without an effect: the largest increase of wrong pixels allowed, as a fraction of the compared
+/// pixels. Twice the largest that was measured, 0.1 %, where a map of 512² texels replaces one of 4096² in an image
+/// 240 pixels wide.
 pub const MOST_COST: f64 = 0.002;
 
-/// Where a plan asks for something, without it there must be so many times as many wrong pixels, or texels so many times
-/// as large, or so many times the work, whatever it buys.
+/// Where a plan uses an effect: the smallest factor by which wrong pixels, texel size or work (whichever the effect
+/// is for) must grow without it.
 pub const LEAST_GAIN: f64 = 1.1;
 
-/// An effect in one case, with and without.
+/// One case, drawn with its effect and without.
 #[derive(Clone, Debug, Serialize)]
 pub struct Ablation {
     /// The effect.
@@ -45,11 +45,11 @@ pub struct Ablation {
     pub buys: Buys,
     /// The scene, by its name.
     pub scene: &'static str,
-    /// The light, as the command line spells it.
+    /// The light, in the command line's spelling.
     pub light: String,
-    /// Whether the plan asks for it.
+    /// Whether the plan uses it.
     pub is_asked_for: bool,
-    /// Why the plan is as it is, in words.
+    /// The plan's reasons.
     pub reasons: Vec<String>,
     /// With the effect.
     pub with: Side,
@@ -57,20 +57,20 @@ pub struct Ablation {
     pub without: Side,
 }
 
-/// What came of drawing maps, or none.
+/// The result of drawing with the effect or without it.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Side {
     /// Pixels compared.
     pub compared: usize,
-    /// Wrong pixels, those at edges too.
+    /// Wrong pixels, those at edges included.
     pub wrong: usize,
-    /// False shadow and false light that no edge explains.
+    /// False shadow and false light away from edges.
     pub false_pixels: usize,
-    /// Pixels lit as a caster is missing, or the map that would hold it.
+    /// Pixels that are lit because a caster or a whole map is missing.
     pub missing: usize,
     /// Wrong pixels at edges.
     pub edge: usize,
-    /// Texels over pixels; nothing without a map.
+    /// Texel size over pixel size; `None` without a map.
     pub aliasing: Option<Aliasing>,
     /// Maps drawn.
     pub passes: usize,
@@ -78,14 +78,14 @@ pub struct Side {
     pub texels: usize,
     /// Triangles drawn into all of them.
     pub triangles: usize,
-    /// Time of the maps' passes, in milliseconds; nothing where the card has no clock.
+    /// Time of the maps' passes, in milliseconds; `None` on a GPU without timestamps.
     pub map_ms: Option<f64>,
     /// Time of the shadow test.
     pub test_ms: Option<f64>,
 }
 
 impl Side {
-    /// Wrong pixels as a part of those compared.
+    /// Wrong pixels as a fraction of those compared.
     #[must_use]
     pub fn wrong_share(&self) -> f64 {
         share(self.wrong, self.compared)
@@ -120,14 +120,15 @@ impl Side {
 }
 
 impl Ablation {
-    /// How many more pixels are wrong without the effect, as a part of those compared; negative where there are fewer.
+    /// Increase of wrong pixels without the effect, as a fraction of those compared; negative where there are
+    /// fewer.
     #[must_use]
     pub fn cost_of_leaving_out(&self) -> f64 {
         self.without.wrong_share() - self.with.wrong_share()
     }
 
-    /// How much the effect gains: how many times as many wrong pixels there are without it, or as large texels, or as many
-    /// passes, texels or triangles, as what it is for.
+    /// The gain of the effect: the factor by which wrong pixels or texel size, or for effects that save work
+    /// passes, texels or triangles, grow without it.
     #[must_use]
     pub fn gain(&self) -> f64 {
         let ratio = |of: &dyn Fn(&Side) -> f64| match (of(&self.without), of(&self.with)) {
@@ -146,12 +147,12 @@ impl Ablation {
         gains.into_iter().fold(0.0, f64::max)
     }
 
-    /// What is wrong with the plan's choice, by [`MOST_COST`] and [`LEAST_GAIN`].
+    /// The plan's mistake by [`MOST_COST`] and [`LEAST_GAIN`], if it made one.
     #[must_use]
     pub fn complaint(&self) -> Option<String> {
         let planned = if self.is_asked_for { &self.with } else { &self.without };
         let cost = match (self.buys, self.is_asked_for) {
-            // Work that is left out must not cost pixels either.
+            // Saved work must not cost pixels either.
             (Buys::Work, _) => -self.cost_of_leaving_out(),
             (Buys::Accuracy, true) => 0.0,
             (Buys::Accuracy, false) => self.cost_of_leaving_out(),
@@ -168,11 +169,11 @@ impl Ablation {
         .map(|complaint| format!("{}, {}, {}: {complaint}", self.effect, self.scene, self.light))
     }
 
-    /// Draws a case with and without its effect, each so many times, in an image so many pixels wide.
+    /// Draws a case with its effect and without it, `frames` times each, in an image `width` pixels wide.
     ///
     /// # Errors
     ///
-    /// When it cannot be drawn, or its effect has no part in what is planned.
+    /// When it cannot be drawn, or the plan has no place for its effect.
     pub fn of(gpu: &Gpu, case: &Case, width: u32, frames: u32) -> Result<Self> {
         let scene = scene::load(case.scene.as_ref())?;
         let tracer = Tracer::new(&scene.mesh)?;
@@ -200,7 +201,7 @@ impl Ablation {
 ///
 /// # Errors
 ///
-/// When one cannot be drawn, with a message that says what to do.
+/// When one cannot be drawn, with a hint.
 pub fn ablation(args: &AblationArgs) -> Result<()> {
     let is_asked_for = |case: &Case| {
         let name = case.effect.to_string();

@@ -1,4 +1,4 @@
-//! One light of a scene, planned, and the same maps with one thing about them changed.
+//! The plan of one light, and variants of its maps with one effect changed.
 
 use std::time::Duration;
 
@@ -16,14 +16,14 @@ use crate::maps::{Layout, Split, Technique};
 use crate::run::{Cutting, FittedMap, FittedMaps, MapRun, Options, planned, run_fitted};
 use crate::stage::{Stage, StageLight};
 
-/// A light's maps, and how they are drawn and read.
+/// A light's maps, and how they are drawn and filtered.
 #[derive(Clone, Debug)]
 pub(super) struct Maps {
     pub(super) fitted: FittedMaps,
     pub(super) options: Options,
 }
 
-/// A light before a scene, planned.
+/// A light and its plan.
 pub(super) struct Setup<'a> {
     pub(super) stage: &'a Stage<'a>,
     pub(super) light: &'a StageLight,
@@ -47,7 +47,7 @@ impl<'a> Setup<'a> {
         Self { stage, light, budget, plan, boxes, frames }
     }
 
-    /// What the plan says of the light.
+    /// The plan of the light.
     pub(super) fn of_light(&self) -> &LightPlan {
         &self.plan.lights()[0]
     }
@@ -57,17 +57,17 @@ impl<'a> Setup<'a> {
         self.plan.view()
     }
 
-    /// The largest map of the budget, in texels a side.
+    /// The budget's largest map size, in texels.
     pub(super) fn largest(&self) -> u32 {
         self.budget.settings().map_size()
     }
 
-    /// The widest filter of the budget.
+    /// The budget's widest filter.
     pub(super) fn widest(&self) -> shadowfit::Filter {
         self.budget.filter()
     }
 
-    /// The maps as planned; `None` where there is none.
+    /// The planned maps; `None` where the plan has none.
     pub(super) fn planned(&self) -> Result<Option<Maps>> {
         let of_light = self.of_light();
         let options = planned::options(of_light, self.budget.format(), Points::Discs, self.frames);
@@ -75,7 +75,7 @@ impl<'a> Setup<'a> {
         Ok(fitted.map(|fitted| Maps { fitted, options }))
     }
 
-    /// The same maps, each fitted once more to a view and to settings made of its own.
+    /// The same maps, each fitted again to another view and with other settings.
     pub(super) fn refitted(
         &self,
         maps: &Maps,
@@ -94,7 +94,8 @@ impl<'a> Setup<'a> {
         Ok(changed)
     }
 
-    /// The same maps with another test: second depth without a bias, or first depth with one; and another filter.
+    /// The same maps with another depth test (second depth without a bias, or first depth with one) and another
+    /// filter.
     pub(super) fn read_by(&self, maps: &Maps, test: DepthTest, filter: Filter) -> Result<Maps> {
         let mut changed = maps.clone();
         (changed.options.faces, changed.options.filter) = (planned::faces(test), filter);
@@ -104,7 +105,7 @@ impl<'a> Setup<'a> {
         Ok(changed)
     }
 
-    /// The same maps with all there is drawn into each.
+    /// The same maps without culling: every object is drawn into each.
     pub(super) fn undiscerning(&self, maps: &Maps) -> Maps {
         let mut changed = maps.clone();
         for fitted in changed.fitted.maps.iter_mut().flatten() {
@@ -113,7 +114,7 @@ impl<'a> Setup<'a> {
         changed
     }
 
-    /// The same faces of a cube, and those that the plan left out, fitted to all there is in them.
+    /// All six cube faces: those that the plan dropped are fitted to everything inside them.
     pub(super) fn all_faces(&self, maps: &Maps) -> Result<Maps> {
         let mut changed = maps.clone();
         let settings = self.settings(maps.options.map_size)?.with_warp(Warp::Uniform);
@@ -126,7 +127,7 @@ impl<'a> Setup<'a> {
         Ok(changed)
     }
 
-    /// Only the face of the cube that most of the compared pixels are in.
+    /// Only the cube face that most of the compared pixels are in.
     pub(super) fn best_face(&self, maps: &Maps) -> Maps {
         let mut pixels = vec![0; maps.fitted.split.parts()];
         for (surface, _) in self.light.truth.pixels().iter().filter_map(|pixel| pixel.compared()) {
@@ -143,15 +144,15 @@ impl<'a> Setup<'a> {
         changed
     }
 
-    /// The faces of a cube instead of the one map that is planned, where they have something to show; of its size and
-    /// warp.
+    /// Cube faces in place of the single planned map, with its size and warp; faces without receivers are dropped.
     pub(super) fn faces_instead(&self, maps: &Maps) -> Result<Maps> {
         let settings = maps.fitted.maps.iter().flatten().next().map(|fitted| *fitted.map.settings());
         let settings = settings.context("there is no map to replace")?;
         self.cube(self.narrowed(), &settings, &maps.options)
     }
 
-    /// What a renderer draws that knows of nothing to leave out: a map of a sun, or all faces of a lamp, of all there is.
+    /// The maps of a renderer without a plan: one for a sun, or all cube faces of a point light, with every object
+    /// in them.
     pub(super) fn naive(&self) -> Result<Option<Maps>> {
         let settings = self.settings(self.largest())?.with_warp(Warp::Uniform);
         let filter = planned::filter(self.widest(), false);
@@ -179,7 +180,7 @@ impl<'a> Setup<'a> {
         FittedMaps::of(self.stage, split, lights, maps, Cutting::None)
     }
 
-    /// A map with what culling against H leaves of the casters; `None` where none is needed.
+    /// A map and the casters left by culling against H; `None` where no map is needed.
     fn fit(&self, view: &View, light: &Light, settings: &Settings, options: &Options) -> Result<Option<FittedMap>> {
         let scene = Scene::new(&self.boxes, &self.boxes)?;
         let focus = Focus::new(view, light, &scene);
@@ -201,7 +202,7 @@ impl<'a> Setup<'a> {
         Ok(Settings::new(size, self.stage.size[1])?.with_border(border)?.with_origin(Origin::Eye))
     }
 
-    /// A view of all there is, with the eye where it is: positions on the card are relative to it.
+    /// A view of the whole scene from the same eye, as positions on the GPU are relative to it.
     fn everywhere(&self) -> Result<View> {
         let (min, max) = self.stage.tracer.bounds();
         let eye = self.stage.view.eye();
@@ -215,12 +216,12 @@ impl<'a> Setup<'a> {
         run_fitted(self.stage, self.light, &maps.options, maps.fitted, Duration::ZERO)
     }
 
-    /// Whether the plan has a kind of map.
+    /// Whether the plan's maps are of this kind.
     pub(super) fn is(&self, kind: Kind) -> bool {
         self.of_light().kind() == kind
     }
 
-    /// The other back-shift.
+    /// The opposite back-shift setting.
     pub(super) fn other_shift(shift: Shift) -> Shift {
         if shift == Shift::None { Shift::Back(FocusForm::ViewHull) } else { Shift::None }
     }

@@ -1,4 +1,4 @@
-//! An effect, with and without: which of the two the plan chose, and what the other would have been.
+//! An effect's two sides: the one that the plan chose, and the other.
 
 use anyhow::{Result, ensure};
 use shadowfit::{
@@ -12,10 +12,10 @@ use super::effect::Effect;
 use super::setup::{Maps, Setup};
 use crate::run::planned;
 
-/// How much nearer to what is seen a narrowed near plane must be to count as moved, as a ratio.
+/// The ratio by which narrowing must move the near plane to count.
 const NARROWED: f64 = 1.1;
 
-/// Maps with an effect and without it; `None` for no map.
+/// Maps with the effect and without it; `None` for no map.
 pub(super) struct Sides {
     /// Whether the plan asks for it.
     pub(super) is_asked_for: bool,
@@ -24,7 +24,7 @@ pub(super) struct Sides {
 }
 
 impl Sides {
-    /// The planned maps on the side that the plan is on, and the others on the other.
+    /// Puts the planned maps on the plan's side, and the others on the other.
     fn of(is_asked_for: bool, planned: Maps, other: Maps) -> Self {
         let (with, without) = if is_asked_for { (planned, other) } else { (other, planned) };
         Self { is_asked_for, with: Some(with), without: Some(without) }
@@ -104,7 +104,7 @@ impl Sides {
             }
             Effect::Narrowing => {
                 let whole = setup.refitted(&planned, &setup.stage.view, Ok)?;
-                // Only a warp follows the view from its near plane on.
+                // Only a warp depends on the view's near plane.
                 let is_warped =
                     planned.fitted.maps.iter().flatten().any(|one| one.map.settings().warp() != Warp::Uniform);
                 let is_asked_for = is_warped && view.near() > NARROWED * setup.stage.view.near();

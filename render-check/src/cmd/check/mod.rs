@@ -1,5 +1,5 @@
-//! The check of one scene: every light, with each technique and size of map, drawn on the card and held against the
-//! truth.
+//! The check of one scene: every light with each technique and map size, drawn on the GPU and compared with
+//! ray-traced truth.
 
 mod args;
 mod pictures;
@@ -26,26 +26,26 @@ use crate::scene::damage::in_single_precision;
 use crate::scene::{LeftOut, LightSpec, LoadedScene};
 use crate::stage::Stage;
 
-/// All that is known after a check.
+/// The report of a check.
 #[derive(Clone, Debug, Serialize)]
 pub struct CheckReport {
     /// The scene's name.
     pub scene: String,
     /// What was left out of it.
     pub left_out: LeftOut,
-    /// What drew it.
+    /// The graphics adapter.
     pub adapter: String,
     /// Width and height of the camera's image, in pixels.
     pub image: [u32; 2],
     /// The camera.
     pub camera: CameraReport,
-    /// What the maps were fitted to: the camera, or what of its depth something is seen in.
+    /// The camera that the maps were fitted to: the same, or narrowed to the depth range of the visible surfaces.
     pub fitted: CameraReport,
     /// Every run, light by light.
     pub runs: Vec<RunReport>,
 }
 
-/// What is asked for where it is to be: all positions moved, and in f32, as world space has them there.
+/// Camera options and scene translated by `--at`, all positions rounded to f32.
 fn moved(args: &CheckArgs, scene: LoadedScene) -> (ViewArgs, LoadedScene) {
     let mut asked = args.view.clone();
     let Some(offset) = args.at else { return (asked, scene) };
@@ -56,7 +56,7 @@ fn moved(args: &CheckArgs, scene: LoadedScene) -> (ViewArgs, LoadedScene) {
     (asked, in_single_precision(&scene.moved(1.0, offset)))
 }
 
-/// Where a lamp's map begins, and whether that costs precision for nothing; nothing of a sun.
+/// The near plane of a local light, and a hint where a larger one would cost nothing; empty for a sun.
 fn near_words(stage: &Stage<'_>, spec: &LightSpec) -> String {
     let Some(position) = spec.position() else { return String::new() };
     let (near, nearest) = (stage.lamp_near(spec), stage.tracer.distance_to(position));
@@ -69,7 +69,7 @@ fn near_words(stage: &Stage<'_>, spec: &LightSpec) -> String {
 ///
 /// # Errors
 ///
-/// When nothing can be checked, with a message that says what to do; and when a caster is missing from a map.
+/// When nothing can be checked, with a hint; and when a caster is missing from a map.
 pub fn check(args: &CheckArgs) -> Result<()> {
     let (asked, scene) = moved(args, open(&args.view)?);
     let out = output_directory(&asked, &scene)?;
@@ -128,7 +128,7 @@ pub fn check(args: &CheckArgs) -> Result<()> {
     Ok(())
 }
 
-/// Narrows what maps are fitted to, and says how far.
+/// Narrows the view that maps are fitted to, and prints the new range.
 fn narrowed(stage: Stage<'_>) -> Result<Stage<'_>> {
     let start = Instant::now();
     let stage = stage.narrowed()?;

@@ -1,4 +1,4 @@
-//! The pictures of one light: the truth, and those of each run.
+//! The pictures of one light: the truth, and several for each run.
 
 use std::path::Path;
 
@@ -20,12 +20,12 @@ pub(super) struct Pictures<'a> {
     lighting: Lighting,
     truth: RgbImage,
     close_up: Option<CloseUp>,
-    /// Of the truth, and of each run.
+    /// One of the truth, and one of each run.
     close_ups: Vec<RgbImage>,
 }
 
 impl<'a> Pictures<'a> {
-    /// Writes the true picture, too.
+    /// Also writes the picture of the truth.
     pub(super) fn new(
         out: &'a Path,
         number: usize,

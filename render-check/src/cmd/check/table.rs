@@ -1,4 +1,4 @@
-//! What is printed of a check: a row for each kind of map of a light.
+//! The table that a check prints: a row for each technique and size.
 
 use std::fmt;
 
@@ -13,7 +13,7 @@ use crate::verdict::{Cluster, Fault};
 /// The rows of one light.
 pub(super) struct CheckTable {
     table: Table,
-    /// Why there is no map, for those that have none.
+    /// Why there is no map, for rows without one.
     reasons: Vec<String>,
 }
 
@@ -35,13 +35,13 @@ const COLUMNS: [&str; 14] = [
 ];
 
 impl CheckTable {
-    /// No rows yet.
+    /// A table without rows.
     #[must_use]
     pub(super) fn new() -> Self {
         Self { table: table::new(COLUMNS, 1..COLUMNS.len()), reasons: Vec::new() }
     }
 
-    /// A row for a light's maps.
+    /// Adds a row for a light's maps.
     pub(super) fn add_maps(&mut self, options: &Options, run: &MapRun) {
         let counts = &run.verdict.counts;
         let share = |count: usize| percent(counts.fraction(count));
@@ -67,7 +67,7 @@ impl CheckTable {
         ]);
     }
 
-    /// A row for none.
+    /// Adds a row for a light without a map.
     pub(super) fn add_no_map(&mut self, options: &Options, none: &NoMap) {
         let mut row = vec![options.name()];
         row.resize(COLUMNS.len(), "-".into());

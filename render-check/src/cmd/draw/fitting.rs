@@ -1,4 +1,4 @@
-//! The calls into `shadowfit`: all that it says about one light, and how long it takes to say it.
+//! Calls into `shadowfit`: its results for one light, and the time they take.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -16,43 +16,43 @@ use crate::run::median_time;
 use crate::scene::{LightSpec, Mesh};
 use crate::stage::scene_box;
 
-/// One way to fit a light, and what came of it.
+/// The result of one technique.
 #[derive(Debug)]
 pub(super) struct Fitted {
-    /// How the texels are spread.
+    /// The technique.
     pub technique: Technique,
     /// The map, or why there is none.
     pub outcome: Outcome,
-    /// What there is to know about the map.
+    /// The report on the map.
     pub report: Option<Report>,
-    /// How much larger a texel is than a pixel at worst, anywhere in what may be visible.
+    /// The worst aliasing, texel size over pixel size, over the receiver volume.
     pub aliasing: Option<f64>,
     /// The median time of a fit on this machine.
     pub median_time: Duration,
 }
 
-/// All that is known of one light.
+/// The results for one light.
 #[derive(Debug)]
 pub(super) struct LightFit {
-    /// The light as it was written.
+    /// The light, as given.
     pub spec: LightSpec,
-    /// What the camera's perspective makes of it.
+    /// Its class: where the camera's perspective maps the light.
     pub class: LightClass,
-    /// The focus body H as the paper has it.
+    /// The caster volume H as in the paper.
     pub body: ConvexBody,
-    /// The tight form of H.
+    /// The tight form of H, the hull of receivers and light.
     pub tight_body: ConvexBody,
-    /// The maps that are compared, in their order.
+    /// The results of the techniques, in their order.
     pub maps: Vec<Fitted>,
-    /// What the worst aliasing of a map of so many texels would be at least, however they were spread.
+    /// The lower bound on the worst aliasing of any parameterization with this number of texels.
     pub limit: f64,
 }
 
-/// Fits one light with a single map, by each of some techniques.
+/// Fits a single map for one light with each of the techniques.
 ///
 /// # Errors
 ///
-/// When the light makes no sense.
+/// When the light is invalid.
 pub(super) fn fit_light(
     spec: LightSpec,
     view: &View,

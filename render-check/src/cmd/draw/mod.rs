@@ -1,4 +1,4 @@
-//! The fit and its pictures, by ray casting: load, frame, fit, print, draw.
+//! The fit and its pictures, by ray casting.
 
 mod args;
 mod fitting;
@@ -26,7 +26,7 @@ use crate::trace::{Lens, Tracer};
 ///
 /// # Errors
 ///
-/// When nothing sensible can be shown, with a message that says what to do.
+/// When the scene, camera or options cannot be used, with a hint.
 pub fn draw(args: &DrawArgs) -> Result<()> {
     let settings = Settings::new(args.size, args.view.height).context("the sizes cannot be used")?;
     let techniques = Technique::or_compared(&args.techniques);
@@ -60,7 +60,7 @@ pub fn draw(args: &DrawArgs) -> Result<()> {
     Ok(())
 }
 
-/// Draws the pictures of one light. The maps are left out where there are none.
+/// Draws the pictures of one light; maps only where there are any.
 fn draw_light(
     args: &DrawArgs,
     out: &Path,

@@ -1,4 +1,4 @@
-//! What is printed: a row for each light.
+//! The table that is printed: a row for each light.
 
 use std::time::Duration;
 
@@ -34,7 +34,7 @@ pub(super) fn table(fits: &[LightFit], bounds: (DVec3, DVec3)) -> Table {
     table
 }
 
-/// A figure of one map, or a dash where there is no map.
+/// A value of one map, or a dash without a map.
 fn of(fitted: &Fitted, figure: impl Fn(&Report) -> String) -> String {
     fitted.report.as_ref().map_or_else(|| "-".into(), figure)
 }

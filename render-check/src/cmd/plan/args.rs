@@ -1,4 +1,4 @@
-//! What to plan, and what may be spent.
+//! Options of `plan`, and the budget.
 
 use anyhow::{Context, Result};
 use clap::builder::RangedU64ValueParser;
@@ -8,77 +8,77 @@ use crate::cli::{FormatArg, ViewArgs};
 use crate::gpu::{Filter, Points};
 use crate::maps::Technique;
 
-/// What is told after the options.
+/// The help text after the options.
 pub(crate) const HELP: &str = "\
-What is planned: the least that is enough for each light, within a budget: a map or none, its kind, its size, what is
-drawn into it, how depths are tested and how the map is read. What is drawn is that and no more.
+The plan: the cheapest sufficient technique for each light within a budget. It decides between a map and none, the kind
+of map, its size, its casters, the depth test and the filter. Exactly the plan is drawn.
 
 The table:
-  aliasing    the longest side of a texel over that of a pixel at its worst, as the plan estimates it; as it came out
-              at its worst among the pixels; and the median
-  drawn       objects drawn of all, over all passes; and triangles
-  missing     pixels lit because a caster was clipped or culled, or because there is no map: must be none
-  false       false shadow and false light, away from edges, in percent of what is compared
-  edge        wrong within a texel's reach, or within a pixel, of the edge of a true shadow, in percent
-  wrong       all of these together: how coarse a map is shows at edges
-  map, test   times of the card's passes, medians over --frames
+  aliasing    longest side of a texel over that of a pixel: the worst by the plan's estimate, the worst of all pixels
+              as measured, and the median
+  drawn       objects drawn, of all, over all passes; and triangles
+  missing     pixels lit because a caster was clipped or culled, or because a map is missing: must be 0
+  false       false shadow (acne) and false light (leaks) away from edges, in percent of the compared pixels
+  edge        wrong within the filter's reach of a true shadow's edge, or next to one, in percent
+  wrong       all of these together; coarse maps show at edges
+  map, test   GPU times of the passes, medians over --frames
 
 Written to --out: plan.json.";
 
-/// What to plan.
+/// Options of `plan`.
 #[derive(Clone, Debug, clap::Args)]
 pub struct PlanArgs {
-    /// The camera, the scene, the lights.
+    /// Scene, camera and lights.
     #[command(flatten)]
     pub view: ViewArgs,
 
-    /// What may be spent.
+    /// The budget.
     #[command(flatten)]
     pub budget: BudgetArgs,
 
-    /// What is drawn into the map for a point of a cloud
+    /// How points of a cloud are drawn into the map
     #[arg(long, value_enum, default_value_t = Points::Discs)]
     pub points: Points,
 
-    /// How often each map is drawn and read, for the median of the times
+    /// Frames drawn per map; times are medians over them
     #[arg(long, default_value_t = 3, value_parser = RangedU64ValueParser::<u32>::new().range(1..=1000))]
     pub frames: u32,
 }
 
-/// What a plan may spend.
+/// The budget of a plan.
 #[derive(Clone, Debug, clap::Args)]
 pub struct BudgetArgs {
-    /// The most texels along each side of a map
+    /// Largest map resolution: texels per side
     #[arg(long, value_name = "TEXELS", default_value_t = 1024, value_parser = RangedU64ValueParser::<u32>::new().range(16..=16384))]
     pub size: u32,
 
-    /// Bits of depth
+    /// Depth format
     #[arg(long, value_enum, default_value_t = FormatArg::Unorm24)]
     pub format: FormatArg,
 
-    /// The widest filter: nearest, hardware (2 x 2, blended), or pcfN for the mean over N x N texels
+    /// The widest filter: nearest, hardware (2 x 2 bilinear PCF), or pcfN (PCF over N x N texels)
     #[arg(long, value_name = "FILTER", default_value = "hardware", value_parser = parse_filter)]
     pub filter: shadowfit::Filter,
 
-    /// What maps may be warped by, where that is worth it
+    /// The warp that maps may use where it pays
     #[arg(long, value_enum, default_value_t = Technique::Best)]
     pub warp: Technique,
 
-    /// What is fine enough: the longest side of a texel over that of a pixel
+    /// Target aliasing: the longest side of a texel over that of a pixel
     #[arg(long, value_name = "RATIO", default_value_t = 1.0)]
     pub aliasing: f64,
 
-    /// The most texels of all maps together [default: as many as they need]
+    /// Limit on the texels of all maps together [default: none]
     #[arg(long, value_name = "TEXELS")]
     pub texels: Option<u64>,
 }
 
 impl BudgetArgs {
-    /// The budget for an image so many pixels high.
+    /// The budget for an image of this height in pixels.
     ///
     /// # Errors
     ///
-    /// When it makes no sense.
+    /// When a value is out of range.
     pub fn budget(&self, image_height: u32) -> Result<Budget> {
         let settings = self.warp.settings(Settings::new(self.size, image_height)?.with_origin(Origin::Eye));
         let budget = Budget::new(settings).with_format(self.format.into()).with_filter(self.filter);
@@ -87,12 +87,12 @@ impl BudgetArgs {
     }
 }
 
-/// Reads a filter that a plan can choose: whether by virtual samples is its own choice.
+/// Parses a filter for a plan, which decides itself where virtual samples are used.
 fn parse_filter(text: &str) -> Result<shadowfit::Filter, String> {
     match text.parse()? {
         Filter::Nearest => Ok(shadowfit::Filter::Nearest),
         Filter::Hardware2x2 => Ok(shadowfit::Filter::Hardware2x2),
-        // The harness reads at most 15 of them.
+        // At most 15 by its own parser.
         Filter::Pcf(taps) => Ok(shadowfit::Filter::Pcf(taps as u8)),
         Filter::Virtual(_) => {
             Err("the plan says where virtual samples are needed: write nearest, hardware or pcfN".into())

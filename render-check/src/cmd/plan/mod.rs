@@ -1,4 +1,4 @@
-//! All lights of a scene, planned: what the plan says and why, and what comes of drawing just that.
+//! Plans all lights of a scene, prints the plan with its reasons, draws it and compares the image with the truth.
 
 mod args;
 mod report;
@@ -21,11 +21,11 @@ use crate::output::{say, write_json};
 use crate::run::{CameraReport, median_time, planned};
 use crate::stage::{Stage, StageLight};
 
-/// Plans a scene, draws what the plan says and checks it.
+/// Plans the lights of a scene, draws the plan and checks it.
 ///
 /// # Errors
 ///
-/// When nothing can be drawn, with a message that says what to do; and when a caster is missing from a map.
+/// When nothing can be drawn, with a hint; and when a caster is missing from a map.
 pub fn plan(args: &PlanArgs) -> Result<()> {
     let scene = open(&args.view)?;
     let out = output_directory(&args.view, &scene)?;

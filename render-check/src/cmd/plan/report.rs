@@ -1,4 +1,4 @@
-//! What came of a plan, for programs and as a table.
+//! The report of a plan, as JSON and as a table.
 
 use std::time::Duration;
 
@@ -14,18 +14,18 @@ use crate::scene::Mesh;
 use crate::stage::{Stage, StageLight};
 use crate::verdict::Verdict;
 
-/// All that is known after planning a scene.
+/// The report of a plan.
 #[derive(Clone, Debug, Serialize)]
 pub struct PlanReport {
     /// The scene's name.
     pub scene: String,
-    /// What drew it.
+    /// The graphics adapter.
     pub adapter: String,
     /// Width and height of the camera's image, in pixels.
     pub image: [u32; 2],
     /// The camera.
     pub camera: CameraReport,
-    /// What the maps were fitted to: the camera between the depths of the receivers in view.
+    /// The camera narrowed to the depth range of the receivers in view, which the maps were fitted to.
     pub narrowed: CameraReport,
     /// The median time of planning all lights, in microseconds.
     pub plan_us: f64,
@@ -42,7 +42,7 @@ pub struct PlanReport {
 /// One light.
 #[derive(Clone, Debug, Serialize)]
 pub struct LightReport {
-    /// The light, as the command line spells it.
+    /// The light, in the command line's spelling.
     pub light: String,
     /// The kind of its maps.
     pub kind: String,
@@ -50,9 +50,9 @@ pub struct LightReport {
     pub test: String,
     /// How the maps are read.
     pub filter: Filter,
-    /// Passes, a map each.
+    /// Passes, one map each.
     pub passes: usize,
-    /// Texels along each side of a map; nothing without one.
+    /// Texels along each side of a map; `None` without one.
     pub map_size: Option<u32>,
     /// Texels of its maps.
     pub texels: u64,
@@ -62,23 +62,23 @@ pub struct LightReport {
     pub of_objects: usize,
     /// Triangles drawn, over all passes.
     pub triangles: u64,
-    /// The plan's estimate of the longest side of a texel over that of a pixel, at its worst.
+    /// The plan's estimate of the worst aliasing: the longest side of a texel over that of a pixel.
     pub aliasing: f64,
-    /// Why it is so, in words.
+    /// The plan's reasons.
     pub reasons: Vec<String>,
-    /// What came of drawing it.
+    /// The result of drawing it.
     pub drawn: DrawnReport,
 }
 
-/// What came of drawing what the plan says.
+/// The result of drawing a light as planned.
 #[derive(Clone, Debug, Serialize)]
 pub struct DrawnReport {
-    /// How long it took; nothing where there was nothing to draw.
+    /// The times; `None` where there was nothing to draw.
     pub times: Option<Times>,
-    /// How it compares with the truth.
+    /// The comparison with ray-traced truth.
     #[serde(flatten)]
     pub verdict: Verdict,
-    /// All wrong pixels, as a part of those compared.
+    /// All wrong pixels, as a fraction of those compared.
     pub wrong: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What the groups of a sweep look at.
+//! The cases of the groups.
 
 use anyhow::Result;
 use clap::ValueEnum as _;
@@ -12,8 +12,8 @@ use crate::run::Options;
 use crate::scene::LightSpec;
 use crate::trace::Faces;
 
-/// Lamps inside of the scene: out of view, in view, and on the way from one to the other; with one map and with those of
-/// a cube's faces, nearest texels and wide filters, which read across the seams.
+/// Point lights inside the scene: out of view, in view, and in between; with one map and with cube faces, with
+/// nearest texels and with wide filters, which read across the seams.
 pub(super) fn lights_inside() -> Result<Vec<Shot>> {
     let room = Stand::built_in("room")?;
     let own = Stand::built_in("room")?.own_lights("room")?;
@@ -34,7 +34,8 @@ pub(super) fn lights_inside() -> Result<Vec<Shot>> {
     Ok([own, across].map(|shot| shot.with_options(options.clone())).into())
 }
 
-/// Lamps with one paraboloid and with two, cut as they must be; all that reads a map reads across the seam between two.
+/// Lights with one paraboloid and with two, casters tessellated; every filter, which reads across the seam between
+/// the two.
 pub(super) fn paraboloids() -> Result<Vec<Shot>> {
     let mut options = Vec::new();
     for filter in [Filter::Nearest, Filter::Hardware2x2, Filter::Pcf(5)] {
@@ -67,7 +68,8 @@ pub(super) fn paraboloids() -> Result<Vec<Shot>> {
     Ok([room, board].map(|shot| shot.with_options(options.clone())).into())
 }
 
-/// Maps that stay put: suns, a spot, a lamp's faces, about the eye and in world space, at home and far from it.
+/// Stabilised maps: suns, a spot, cube faces; relative to the eye and in world space; near the origin and far from
+/// it.
 pub(super) fn stable() -> Result<Vec<Shot>> {
     let wide = Filter::Pcf(5);
     let mut options = Vec::new();
@@ -86,7 +88,7 @@ pub(super) fn stable() -> Result<Vec<Shot>> {
     Ok(shots.map(|shot| shot.with_options(options.clone())).into())
 }
 
-/// Two slices to eight, split in every way, of all that is wide and little that is high.
+/// Two to eight cascades with every split scheme.
 pub(super) fn slices() -> Result<Vec<Shot>> {
     let mut options = Vec::new();
     for technique in [Technique::Uniform, Technique::Psm, Technique::Best, Technique::Stable] {
@@ -106,7 +108,8 @@ pub(super) fn slices() -> Result<Vec<Shot>> {
     Ok(shots.map(|shot| shot.with_options(options.clone())).into())
 }
 
-/// A street with the near plane a step from the eye, where there is only air, and with it close before what is seen.
+/// A street with the near plane a step from the eye, far in front of the nearest surface, and with it close to that
+/// surface.
 pub(super) fn street() -> Result<Vec<Shot>> {
     let narrowed = || -> Result<Stand> {
         let mut stand = Stand::built_in("street")?;
@@ -119,7 +122,7 @@ pub(super) fn street() -> Result<Vec<Shot>> {
     ])
 }
 
-/// A plate on which nothing casts, under a high sun, a low one, and a lamp.
+/// A plate without casters, under a high sun, a low one, and a point light.
 pub(super) fn flat() -> Result<Vec<Shot>> {
     let lights = |_: &View| {
         vec![
@@ -132,7 +135,7 @@ pub(super) fn flat() -> Result<Vec<Shot>> {
     Ok(vec![Stand::built_in("ground")?.shot("plate", lights)?])
 }
 
-/// Far planes at infinity and a million units off, near planes a thousandth off.
+/// Far planes at infinity and at a million units, near planes at a thousandth.
 pub(super) fn far_planes() -> Result<Vec<Shot>> {
     [("endless", 1.0, f64::INFINITY), ("a million", 1.0, 1e6), ("near and endless", 1e-3, f64::INFINITY)]
         .into_iter()
@@ -174,7 +177,7 @@ pub(super) fn sizes() -> Vec<Options> {
     [256, 512, 1024, 2048, 4096].into_iter().flat_map(of).collect()
 }
 
-/// Every way to read a map, and to draw it.
+/// Every filter and every choice of faces.
 pub(super) fn filters() -> Vec<Options> {
     let mut all = Vec::new();
     for faces in [Faces::All, Faces::Front, Faces::Back] {
@@ -185,7 +188,7 @@ pub(super) fn filters() -> Vec<Options> {
     all
 }
 
-/// Solids that stand on a floor: the first surface with a bias, the second without, and with virtual samples.
+/// Solids on a floor: first depth with a bias, second depth without, and second depth with virtual samples.
 pub(super) fn solids() -> Vec<Options> {
     let ways =
         [(Faces::All, Filter::Nearest), (Faces::Second, Filter::Nearest), (Faces::Second, Filter::Virtual(2))];
@@ -195,7 +198,8 @@ pub(super) fn solids() -> Vec<Options> {
     [512, 256, 128].into_iter().flat_map(of).collect()
 }
 
-/// Sheets, which are their own second surface, without a bias: with virtual samples, and between two layers.
+/// Open sheets, which are their own second surface, without a bias: with virtual samples, and with the midpoint of
+/// two layers.
 pub(super) fn open_sheets() -> Result<Vec<Shot>> {
     let ways = [(Faces::Second, Filter::Virtual(2)), (Faces::Layers, Filter::Nearest)];
     let of = |technique| ways.map(|(faces, filter)| Options { faces, filter, ..Options::new(technique, MAP_SIZE) });
@@ -206,7 +210,7 @@ pub(super) fn open_sheets() -> Result<Vec<Shot>> {
         .collect()
 }
 
-/// Virtual samples in every format, in clip spaces reversed and not, on the first surface and on the second.
+/// Virtual samples in every format, with reversed and ordinary depth, for first and second depth.
 pub(super) fn virtual_samples() -> Result<Vec<Shot>> {
     let mut options = Vec::new();
     for clip in [ClipConvention::Wgpu, ClipConvention::OpenglReversed] {
@@ -223,7 +227,7 @@ pub(super) fn virtual_samples() -> Result<Vec<Shot>> {
         .collect()
 }
 
-/// A cloud as hexagons and as splats.
+/// A point cloud as hexagons and as splats.
 pub(super) fn points() -> Vec<Options> {
     let of = |points| EXTREMES.map(|technique| Options { points, ..Options::new(technique, MAP_SIZE) });
     [Points::Discs, Points::Splats].into_iter().flat_map(of).collect()

@@ -1,4 +1,4 @@
-//! Scenes with faults, and scenes far from the origin in f32.
+//! Damaged scenes, and scenes far from the origin in f32.
 
 use anyhow::Result;
 use shadowfit::Origin;
@@ -11,8 +11,8 @@ use crate::run::Options;
 use crate::scene::damage::{Fault, damaged, in_single_precision};
 use crate::trace::Faces;
 
-/// Every fault in two scenes, each after the same scene without any. Faults cost solids their inside, so that the second
-/// surface is drawn too, with virtual samples, which need no solids.
+/// Every kind of damage in two scenes, after the same scene undamaged. Damaged objects are no longer watertight, so
+/// second depth is drawn with virtual samples, which do not need watertight objects.
 pub(super) fn faults() -> Result<Vec<Shot>> {
     let second =
         Options { faces: Faces::Second, filter: Filter::Virtual(2), ..Options::new(Technique::Uniform, MAP_SIZE) };
@@ -32,8 +32,9 @@ pub(super) fn faults() -> Result<Vec<Shot>> {
 /// Millimetres in a unit of the chess board.
 const MILLIMETRES: f64 = 1e3;
 
-/// The chess board in millimetres, a kilometre and a thousand kilometres from the origin, its vertices in f32 as files have
-/// them: drawn about the eye, drawn in world space, and, for comparison, what f32 has made of its shape drawn at home.
+/// The chess board in millimetres, a kilometre and a thousand kilometres from the origin, with vertices in f32 as
+/// in files: drawn relative to the eye, drawn in world space, and, for comparison, the same rounded shape drawn at
+/// the origin.
 pub(super) fn far_off() -> Result<Vec<Shot>> {
     let mut options = [Technique::Uniform, Technique::Psm, Technique::Best, Technique::Cube]
         .map(|way| Options::new(way, MAP_SIZE))
@@ -41,7 +42,7 @@ pub(super) fn far_off() -> Result<Vec<Shot>> {
     options.push(Options { filter: Filter::Pcf(3), ..options[0] });
     let mut shots = Vec::new();
     for (words, distance) in [("1e6 mm", 1e6), ("1e9 mm", 1e9)] {
-        // Whole numbers of the steps of f32 there, so that the way back is exact.
+        // Multiples of the f32 step at that distance, so that moving back is exact.
         let offset = distance * DVec3::new(1.0, -0.3, 0.7);
         let far = in_single_precision(&Stand::built_in("chess-board")?.scene.moved(MILLIMETRES, offset));
         let home = far.moved(1.0, -offset);

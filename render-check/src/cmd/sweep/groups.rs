@@ -15,7 +15,7 @@ use super::surfaces::through_surfaces;
 pub struct Group {
     /// A name without spaces.
     pub name: &'static str,
-    /// Makes the cases; an error when a scene has no camera that sees it.
+    /// Builds the cases; fails where a scene has no camera that sees it.
     pub shots: fn() -> Result<Vec<Shot>>,
 }
 

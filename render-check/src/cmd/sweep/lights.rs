@@ -1,14 +1,14 @@
-//! Lights that move through the boundaries between the classes.
+//! Lights on paths through the boundaries between light classes.
 
 use shadowfit::View;
 use shadowfit::glam::{DQuat, DVec3};
 
 use crate::scene::LightSpec;
 
-/// A light, and what it is in words.
+/// A light and its description.
 pub(super) type NamedLight = (String, LightSpec);
 
-/// A boundary at 0 is passed at the steps themselves, at 0, and at powers of ten on both sides of it.
+/// Samples of a path through a boundary at 0: the steps, 0 itself, and powers of ten on both sides.
 fn through_zero(steps: &[f64]) -> Vec<f64> {
     let near = (1..=8).map(|k| 10_f64.powi(-k)).flat_map(|small| [-small, small]);
     let mut all: Vec<f64> = steps.iter().copied().chain([0.0]).chain(near).collect();
@@ -24,8 +24,8 @@ fn lamp(position: DVec3) -> LightSpec {
     LightSpec::Point { position, range: f64::INFINITY }
 }
 
-/// Suns on an arc from low before the viewer, over the image plane, where the class changes, to low behind, a little to
-/// the side.
+/// Suns on an arc from low in front of the viewer, through the image plane, where the class changes, to low behind,
+/// slightly to the side.
 pub(super) fn suns_across(view: &View) -> Vec<NamedLight> {
     let forward = view.forward();
     let ahead = DVec3::new(forward.x, 0.0, forward.z).normalize();
@@ -44,7 +44,7 @@ pub(super) fn suns_across(view: &View) -> Vec<NamedLight> {
         .collect()
 }
 
-/// Lamps to the right of the camera that move from before it through its plane to behind it.
+/// Point lights to the right of the camera, from in front of its image plane to behind.
 pub(super) fn lamps_through_the_plane(view: &View) -> Vec<NamedLight> {
     let beside = view.eye() + 5.0 * view.right() + 4.0 * view.up();
     let steps: Vec<f64> = (-8..=8).filter(|&i| i != 0).map(f64::from).collect();
@@ -57,7 +57,7 @@ pub(super) fn lamps_through_the_plane(view: &View) -> Vec<NamedLight> {
         .collect()
 }
 
-/// Suns and lamps behind the viewer that pass through the axis of the view.
+/// Suns and point lights behind the viewer, across the view axis.
 pub(super) fn through_the_back(view: &View) -> Vec<NamedLight> {
     let steps = through_zero(&[-2.0, -1.0, -0.5, 0.5, 1.0, 2.0]);
     let suns = steps.iter().map(|&aside| {

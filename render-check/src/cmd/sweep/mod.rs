@@ -1,4 +1,5 @@
-//! The hard cases, as small pictures of built-in scenes: drawn with every technique and held against the truth.
+//! The hard cases, as small images of built-in scenes: drawn with every technique and compared with ray-traced
+//! truth.
 
 mod args;
 mod cases;
@@ -34,21 +35,21 @@ use crate::verdict::share;
 pub struct SweepRun {
     /// The group it belongs to.
     pub group: &'static str,
-    /// The shot and the light in words.
+    /// Description of shot and light.
     pub case: String,
-    /// What came of it.
+    /// The result.
     #[serde(flatten)]
     pub run: RunReport,
 }
 
-/// What makes the cases of a group.
+/// Builds the cases of a group.
 type Shots<'a> = Box<dyn Fn() -> Result<Vec<Shot>> + 'a>;
 
 /// Sweeps over the groups that the arguments name, or over all.
 ///
 /// # Errors
 ///
-/// When nothing can be drawn, with a message that says what to do; and when a caster is missing from a map.
+/// When nothing can be drawn, with a hint; and when a caster is missing from a map.
 pub fn sweep(args: &SweepArgs) -> Result<()> {
     let is_asked_for = |name: &str| args.groups.is_empty() || args.groups.iter().any(|word| name.contains(word));
     let groups = GROUPS.iter().filter(|group| args.through.is_none() && is_asked_for(group.name));
@@ -110,14 +111,14 @@ pub fn run_shots(gpu: &Gpu, group: &'static str, shots: &[Shot], done: impl Fn()
     Ok(runs)
 }
 
-/// What came of a group.
+/// Summary of a group.
 #[derive(Clone, Debug, Default)]
 pub struct Summary {
     /// The group.
     pub group: &'static str,
     /// Runs with maps.
     pub maps: usize,
-    /// Runs that need none.
+    /// Runs that need no map.
     pub none: usize,
     /// Pixels compared in all of them.
     pub compared: usize,

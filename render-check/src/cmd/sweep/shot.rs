@@ -1,4 +1,4 @@
-//! One camera before one scene, to be drawn in a sweep.
+//! One camera in one scene, to be drawn in a sweep.
 
 use std::path::Path;
 
@@ -12,18 +12,18 @@ use crate::scene::{self, Camera, LoadedScene};
 use crate::stage::choose_view;
 use crate::trace::Tracer;
 
-/// Width and height of the pictures, in pixels, where a group has no need of smaller ones.
+/// Default image size, in pixels.
 pub const IMAGE: [u32; 2] = [240, 150];
 
-/// Texels a side of the maps, where their size is not what is swept.
+/// Default map size, in texels.
 pub(super) const MAP_SIZE: u32 = 512;
 
-/// No warp, a warp along the view, and any warp in any window: enough where warps are not what is swept.
+/// No warp, the perspective warp and the best warp: enough for groups about something other than warps.
 pub(super) const EXTREMES: [Technique; 3] = [Technique::Uniform, Technique::Psm, Technique::Best];
 
-/// One camera before one scene, under some lights, each through some maps.
+/// One camera in one scene, with its lights and the maps for each.
 pub struct Shot {
-    /// What is special about it.
+    /// Description.
     pub name: String,
     /// The scene.
     pub scene: LoadedScene,
@@ -31,16 +31,16 @@ pub struct Shot {
     pub view: View,
     /// Width and height of the picture, in pixels.
     pub image: [u32; 2],
-    /// What the maps' matrices take positions relative to.
+    /// The origin of the maps' matrices.
     pub origin: Origin,
-    /// The lights, and what is special about them.
+    /// The lights with their descriptions.
     pub lights: Vec<NamedLight>,
     /// The maps.
     pub options: Vec<Options>,
 }
 
 impl Shot {
-    /// How many runs it has.
+    /// Number of runs.
     #[must_use]
     pub fn runs(&self) -> usize {
         self.lights.len() * self.options.len()
@@ -50,19 +50,19 @@ impl Shot {
         Self { options, ..self }
     }
 
-    /// With every kind of warp.
+    /// The same with every kind of warp.
     pub(super) fn warped(self) -> Self {
         self.with_options(Technique::WARPS.map(|technique| Options::new(technique, MAP_SIZE)).to_vec())
     }
 
-    /// And with texels that stay where they are.
+    /// The same with a stabilised map as well.
     pub(super) fn and_stable(mut self) -> Self {
         self.options.push(Options::new(Technique::Stable, MAP_SIZE));
         self
     }
 }
 
-/// A camera in a scene, before its planes are chosen.
+/// A camera in a scene; near and far planes are chosen later.
 pub(super) struct Stand {
     pub(super) scene: LoadedScene,
     pub(super) camera: Camera,

@@ -1,4 +1,4 @@
-//! Lamps that move through the surfaces of a scene.
+//! Point lights on paths through the surfaces of a scene.
 
 use std::path::Path;
 
@@ -12,29 +12,29 @@ use crate::run::Options;
 use crate::scene::{self, LightSpec, LoadedScene, Mesh};
 use crate::trace::{Ray, Tracer};
 
-/// Small pictures and maps: there are many lamps.
+/// Small images and maps, as there are many lights.
 const IMAGE: [u32; 2] = [160, 100];
 const MAP_SIZE: u32 = 256;
 
-/// Where a lamp goes through a surface.
+/// Where a path crosses a surface.
 #[derive(Clone, Copy, Debug)]
 struct Crossing {
-    /// On the surface, as near as f64 can tell.
+    /// A point of the surface, up to f64 rounding.
     point: DVec3,
-    /// Towards the side that the lamp comes from.
+    /// Towards the side that the light comes from.
     normal: DVec3,
 }
 
 impl Crossing {
-    /// At the point of a triangle's plane that is nearest to one close by.
+    /// At the point of a triangle's plane nearest to a given point.
     fn of(mesh: &Mesh, triangle: usize, close_by: DVec3) -> Self {
         let normal = mesh.face_normal(triangle);
         let corner = mesh.corners(triangle)[0];
         Self { point: close_by - normal.dot(close_by - corner) * normal, normal }
     }
 
-    /// Lamps before the surface, on it and behind it: a hundredth, a ten-thousandth, four steps and one step of f32 and a
-    /// step of f64 away from it, all of the largest coordinate.
+    /// Point lights in front of the surface, on it and behind it: off by 1e-2, 1e-4, four steps and one step of
+    /// f32, and one step of f64, relative to the largest coordinate.
     fn lamps(&self, number: usize) -> Vec<NamedLight> {
         let (in_f32, in_f64) = (f64::from(f32::EPSILON), f64::EPSILON);
         let parts = [1e-2, 1e-4, 4.0 * in_f32, in_f32, in_f64];
@@ -48,7 +48,7 @@ impl Crossing {
     }
 }
 
-/// Every surface on the straight ways from one point to another.
+/// Every surface crossing on the polyline through the points.
 fn on_the_ways(mesh: &Mesh, ways: &[[DVec3; 2]]) -> Result<Vec<Crossing>> {
     let tracer = Tracer::new(mesh)?;
     let mut all = Vec::new();
@@ -69,7 +69,7 @@ fn on_the_ways(mesh: &Mesh, ways: &[[DVec3; 2]]) -> Result<Vec<Crossing>> {
     Ok(all)
 }
 
-/// The middle of the largest triangle of every object.
+/// A crossing at the middle of the largest triangle of every object.
 fn of_every_object(mesh: &Mesh) -> Vec<Crossing> {
     let area = |triangle: usize| {
         let [a, b, c] = mesh.corners(triangle);
@@ -97,9 +97,9 @@ fn shot(scene: LoadedScene, crossings: &[Crossing]) -> Result<Shot> {
     Ok(Shot { image: IMAGE, ..shot.with_options(options) })
 }
 
-/// Lamps on ways through a room, and on one through a piece of a chess board.
+/// Point lights on paths through a room, and through a piece of a chess board.
 pub(super) fn through_surfaces() -> Result<Vec<Shot>> {
-    // Out of the ceiling and through both sides of the lamp's shade; out of the vase and into the table; into a wall;
+    // Out of the ceiling and through both sides of the lampshade; out of the vase into the table; into a wall;
     // through the rug into the floor.
     let room = [
         [DVec3::new(1.05, 3.0, -1.95), DVec3::new(1.05, 2.2, -1.95)],
@@ -122,7 +122,7 @@ pub(super) fn through_surfaces() -> Result<Vec<Shot>> {
         .collect()
 }
 
-/// Lamps through every object of a scene.
+/// Point lights through every object of a scene.
 ///
 /// # Errors
 ///
@@ -145,11 +145,11 @@ mod tests {
             assert_eq!(shot.lights.len(), 11 * surfaces, "{}", shot.name);
             for lamps in shot.lights.chunks(11) {
                 let position = |i: usize| lamps[i].1.position().expect("a lamp");
-                // The farthest ones may have another surface between them: a shade has two sides.
+                // Another surface may lie between the farthest two: a lampshade has two sides.
                 let way = position(9) - position(1);
                 let ray = Ray { origin: position(1), direction: way.normalize(), length: way.length() };
                 let hit = tracer.first_hit(&ray).expect("a surface");
-                // The middle one stands on it, but for the roundings of its coordinates.
+                // The middle one is on it, up to rounding.
                 let on = position(5);
                 let rounding = 4.0 * f64::EPSILON * on.abs().max_element();
                 assert!(hit.face_normal.dot(hit.point - on).abs() <= 2.0 * rounding, "{}: {hit:?}", lamps[5].0);

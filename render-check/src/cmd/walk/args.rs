@@ -1,21 +1,21 @@
-//! Where to walk.
+//! Options of `walk`.
 
 use clap::builder::RangedU64ValueParser;
 
 use crate::cli::values::{parse_angle, parse_finite_distance};
 use crate::cli::{MapArgs, ViewArgs};
 
-/// What a walk counts.
+/// The help text after the options.
 pub(crate) const HELP: &str = "\
-What is counted: pixels of each step that change between light and shadow when the map fitted for the next step takes
-the place of this step's, though nothing moved but the camera, so that the truth is the same. Only points that both
-cameras have in view count, and those apart that pass over a cut between slices and so to another map. A best map is also found from the one of the step before (warm), and then says when it left that
-for another one, so that what is visible jumps about in the map. Written to --out: walk.json.";
+What is counted: pixels of each step that change between light and shadow when the next step's map replaces this step's.
+Only the camera has moved, so the truth is the same. Only points in both views count; points that move from one cascade
+to another are also counted separately. A best map is fitted a second time warm-started from the previous step's map;
+for it the number of jumps to another map is given, at which shadow edges jump too. Written to --out: walk.json.";
 
-/// Where to walk.
+/// Options of `walk`.
 #[derive(Clone, Debug, clap::Args)]
 pub struct WalkArgs {
-    /// The camera, the scene, the lights.
+    /// Scene, camera and lights.
     #[command(flatten)]
     pub view: ViewArgs,
 
@@ -23,16 +23,16 @@ pub struct WalkArgs {
     #[command(flatten)]
     pub map: MapArgs,
 
-    /// Steps of the walk
+    /// Number of steps
     #[arg(long, default_value_t = 24, value_parser = RangedU64ValueParser::<u32>::new().range(1..=10000))]
     pub steps: u32,
 
-    /// How far the camera goes in a step, ahead and half as far aside, in world units
-    /// [default: a hundredth of the distance to what is in the middle of the picture]
+    /// Distance per step, in world units: this far ahead and half as far to the side [default: a hundredth of the
+    /// distance to the surface in the middle of the image]
     #[arg(long, value_name = "DISTANCE", value_parser = parse_finite_distance)]
     pub pace: Option<f64>,
 
-    /// How far the camera turns in a step, in degrees
+    /// Rotation per step, in degrees
     #[arg(long, value_name = "DEGREES", default_value_t = 0.25, value_parser = parse_angle, allow_hyphen_values = true)]
     pub turn: f64,
 }

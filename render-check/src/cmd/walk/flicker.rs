@@ -1,4 +1,4 @@
-//! What flickered.
+//! Counts of flickering pixels.
 
 use comfy_table::Table;
 use serde::Serialize;
@@ -7,38 +7,38 @@ use crate::maps::{Slicing, Technique};
 use crate::output::table::{self, percent};
 use crate::verdict::share;
 
-/// What flickered under one light through one kind of map.
+/// Flicker of one light with one kind of map.
 #[derive(Clone, Debug, Serialize)]
 pub struct Flicker {
-    /// The light, as the command line spells it.
+    /// The light, in the command line's spelling.
     pub light: String,
-    /// How the texels are spread.
+    /// The technique.
     pub technique: Technique,
     /// Texels along each side.
     pub map_size: u32,
-    /// How the view is cut into slices; nothing where it is not.
+    /// How the view is split into cascades; `None` where it is not.
     pub slicing: Option<Slicing>,
-    /// The technique and the sizes in words.
+    /// Technique and sizes in words.
     #[serde(skip)]
     pub name: String,
-    /// Whether each map is found from the one of the step before.
+    /// Whether each fit is warm-started from the previous step's map.
     pub warm: bool,
-    /// The median over the steps of the time of a fit, on the processor, in microseconds.
+    /// Median CPU time of a fit, in microseconds.
     pub fit_us: f64,
-    /// How often one found so was another than the one before.
+    /// How often a warm-started fit jumped to another map.
     pub switches: usize,
-    /// What changed in each step; nothing where one of its two cameras has no map.
+    /// The changes of each step; `None` where one of its two cameras has no map.
     pub steps: Vec<Option<Step>>,
 }
 
-/// What flickered in a step.
+/// Flicker in one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Step {
     /// Pixels that changed between light and shadow.
     pub changed: usize,
-    /// Those of them that another map answers for than before, as the camera moved them over a cut between slices.
+    /// Of these, pixels that moved from one cascade to another.
     pub over_a_cut: usize,
-    /// Pixels whose point both cameras have in view and the light could reach.
+    /// Pixels whose surface point is in both views and in reach of the light.
     pub compared: usize,
 }
 
@@ -58,7 +58,7 @@ impl Flicker {
         shares.clone().sum::<f64>() / shares.count().max(1) as f64
     }
 
-    /// The same of those that another map answers for.
+    /// The same for pixels that moved from one cascade to another.
     #[must_use]
     pub fn mean_over_cuts(&self) -> f64 {
         let shares = self.steps.iter().flatten().map(|step| share(step.over_a_cut, step.compared));

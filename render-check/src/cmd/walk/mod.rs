@@ -1,4 +1,4 @@
-//! A camera that walks, and the pixels that flicker: light and shadow that change though the truth does not.
+//! Moves the camera and counts flicker: pixels that change between light and shadow although the truth does not.
 
 mod args;
 mod flicker;
@@ -24,17 +24,17 @@ use crate::scene::{Camera, LightSpec};
 use crate::stage::{Stage, StageLight};
 use crate::trace::{Lens, Tracer};
 
-/// How far the camera goes in a step by default, over the distance to what is in the middle of its picture.
+/// Default distance per step, relative to the distance to the surface in the middle of the image.
 const PACE: f64 = 0.01;
 
-/// How often each map is fitted again, for the median of the times.
+/// Fits per map, for the median time.
 const FITS: usize = 9;
 
 /// Walks through a scene.
 ///
 /// # Errors
 ///
-/// When nothing can be drawn, with a message that says what to do.
+/// When nothing can be drawn, with a hint.
 pub fn walk(args: &WalkArgs) -> Result<()> {
     let scene = open(&args.view)?;
     let out = output_directory(&args.view, &scene)?;
@@ -65,7 +65,7 @@ pub fn walk(args: &WalkArgs) -> Result<()> {
         let camera = moved(&camera, pace * f64::from(step + 1), args.turn * f64::from(step + 1));
         let view = camera.view(args.view.aspect(), start.near(), start.far())?;
         let next = Stage::new(&gpu, &tracer, &view, size)?.with_lamp_near(args.view.lamp_near);
-        // What the camera saw, about the origin that the next map's matrix takes positions from.
+        // The same view drawn again, relative to the origin of the next map's matrix.
         let again = Surfaces::draw(&gpu, &next.geometry, &here.view, size)?;
         for (spec, walkers) in lights.iter().zip(walkers.chunks_mut(ways.len())) {
             let light = here.light(*spec)?;
@@ -85,15 +85,15 @@ pub fn walk(args: &WalkArgs) -> Result<()> {
     Ok(())
 }
 
-/// A way to come by a map in each step.
+/// How a map is fitted in each step.
 #[derive(Clone, Copy, Debug)]
 struct Way {
     options: Options,
-    /// From the one of the step before.
+    /// Warm-started from the previous step's map.
     warm: bool,
 }
 
-/// As the options say, and from the map of the step before too where that makes a difference.
+/// A cold fit for all options, and a warm-started one for techniques with a search.
 fn ways(options: &[Options]) -> Vec<Way> {
     let of = |&options: &Options| {
         let is_searched = options.technique.is_searched();
@@ -102,11 +102,11 @@ fn ways(options: &[Options]) -> Vec<Way> {
     options.iter().flat_map(of).collect()
 }
 
-/// One light through one kind of map, on its way.
+/// The state of one light with one kind of map.
 struct Walker {
     light: LightSpec,
     way: Way,
-    /// The maps where the camera is, if there are any.
+    /// The maps of the current step, if there are any.
     maps: Option<FittedMaps>,
     times: Vec<Duration>,
     switches: usize,
@@ -118,7 +118,7 @@ impl Walker {
         Self { light, way, maps, times: Vec::new(), switches: 0, steps: Vec::new() }
     }
 
-    /// Goes from here to the next camera.
+    /// Moves on to the next camera.
     fn step(&mut self, here: &Stage<'_>, next: &Stage<'_>, again: &Surfaces, light: &StageLight) -> Result<()> {
         let Way { options, warm } = &self.way;
         let before = self.maps.as_ref().filter(|_| *warm);
@@ -152,7 +152,7 @@ impl Walker {
     }
 }
 
-/// The depth of what is in the middle of the picture; of the far end of the scene, where nothing is.
+/// The depth of the surface in the middle of the image; the scene's diagonal where there is none.
 fn distance_ahead(view: &View, tracer: &Tracer<'_>) -> f64 {
     let ray = Lens::of_view(view).ok().and_then(|lens| lens.ray_through_pixel(0, 0, 1, 1));
     let hit = ray.and_then(|ray| tracer.first_hit(&ray));
@@ -160,14 +160,14 @@ fn distance_ahead(view: &View, tracer: &Tracer<'_>) -> f64 {
     hit.map_or((max - min).length(), |hit| view.depth(hit.point))
 }
 
-/// The camera so far ahead and half as far to the right, turned to the left about its up axis.
+/// The camera moved `ahead` forward and half as far to the right, and turned left about its up axis.
 fn moved(start: &Camera, ahead: f64, degrees: f64) -> Camera {
     let turn = DQuat::from_axis_angle(start.up.normalize(), degrees.to_radians());
     let right = start.forward.cross(start.up).normalize();
     Camera { eye: start.eye + ahead * (start.forward + 0.5 * right), forward: turn * start.forward, ..*start }
 }
 
-/// Counts the pixels seen from here that change when the maps fitted for the next camera take the place of these.
+/// Counts the pixels of the current view that change when the next camera's maps replace the current ones.
 fn compare(
     (here, these_maps): (&Stage<'_>, &FittedMaps),
     (next, next_maps): (&Stage<'_>, &FittedMaps),
@@ -181,7 +181,7 @@ fn compare(
     let mut step = Step::default();
     for (i, pixel) in light.truth.pixels().iter().enumerate() {
         let Some((surface, _)) = pixel.compared() else { continue };
-        // The two drawings of the same view may differ by the rounding of their origins.
+        // The two drawings of one view may differ by rounding, as their origins differ.
         let same_surface = here.surfaces.triangles[i] == again.triangles[i];
         if same_surface && planes.iter().all(|plane| plane.at(surface.point) >= 0.0) {
             step.compared += 1;

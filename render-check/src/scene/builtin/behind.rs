@@ -15,11 +15,11 @@ const EYE: DVec3 = DVec3::new(0.0, 2.0, 0.0);
 const FIGURE_FOOT: DVec3 = DVec3::new(0.55, 0.0, 1.3);
 const LAMP_POST_FOOT: DVec3 = DVec3::new(4.3, -0.02, 2.4);
 
-/// The slabs of the square are so wide and long, and so many lie across and along.
+/// Size of the square's slabs, and their numbers across and along.
 const SLAB: f64 = 2.0;
 const SLABS_ACROSS: u32 = 12;
 const SLABS_ALONG: u32 = 10;
-/// The z coordinate of the square's near edge; that is behind the viewer.
+/// The z coordinate of the square's near edge, behind the viewer.
 const NEAR_EDGE: f64 = 6.0;
 const WALL_FRONT: f64 = -9.6;
 
@@ -134,8 +134,8 @@ fn add_square(builder: &mut MeshBuilder) {
     }
 }
 
-/// The low wall along the far side, with a coping and a pillar at each end. What stands is sunk a little into the
-/// square, so that no two surfaces coincide.
+/// The low wall along the far side, with a coping and a pillar at each end. Everything that stands is sunk a little
+/// into the square, so that no two surfaces coincide.
 fn add_wall(builder: &mut MeshBuilder) {
     let mut add = |min: [f64; 3], max: [f64; 3], colour| {
         add_box(builder, min.into(), max.into(), DMat4::IDENTITY, colour);
@@ -203,12 +203,12 @@ fn add_limb(builder: &mut MeshBuilder, from: DVec3, to: DVec3, radii: [f64; 2]) 
     add_turned(builder, &profile, DMat4::from_rotation_translation(turn, from), LIMBS);
 }
 
-/// A ball, or with different radii something longish.
+/// An ellipsoid.
 fn add_ball(builder: &mut MeshBuilder, middle: DVec3, radii: DVec3, colour: [f32; 3]) {
     const STRETCHES: u32 = 8;
     let profile: Vec<DVec2> = (0..=STRETCHES)
         .map(|i| match i {
-            // On the axis exactly: rounding must leave no thin triangles there.
+            // Exactly on the axis, as rounding would leave thin triangles there.
             0 => DVec2::NEG_Y,
             STRETCHES => DVec2::Y,
             _ => DVec2::from_angle(PI * (f64::from(i) / f64::from(STRETCHES) - 0.5)),
@@ -247,7 +247,7 @@ mod tests {
         add_figure(&mut figure);
         let mut lamp_post = MeshBuilder::default();
         add_upright(&mut lamp_post, &LAMP_POST, LAMP_POST_FOOT, IRON);
-        // The post's shadow climbs the wall, which stands before where the rest of it would meet the ground.
+        // The post's shadow climbs the wall, which stands in front of where its end would meet the ground.
         for (caster, least_share) in [(figure, 0.5), (lamp_post, 0.0)] {
             let vertices = caster.finish().0.vertices;
             assert!(vertices.iter().all(|&p| (p - camera.eye).dot(camera.forward) < 0.0));

@@ -1,5 +1,5 @@
-//! A cloud of points: an undulating ground, taken a point here and a point there, and a ball that hovers over it. One unit
-//! is a metre.
+//! A cloud of points: an undulating ground, sampled irregularly, and a ball that hovers over it. One unit is a
+//! metre.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ use crate::scene::{Camera, LightSpec, LoadedScene, MeshBuilder};
 /// Points along each side of the ground, and how far they are apart.
 const SIDE: u32 = 60;
 const SPACING: f64 = 0.2;
-/// How far a point is off its place in the grid, as a part of the spacing.
+/// Jitter of the grid, relative to the spacing.
 const JITTER: f64 = 0.15;
 
 const BALL: DVec3 = DVec3::new(0.4, 2.1, 0.6);

@@ -14,7 +14,7 @@ const LEAF_WIDTH: f64 = 0.17;
 /// How far from its twig's end a leaf may hang.
 const TUFT_RADIUS: f64 = 0.75;
 
-/// So many paving slabs lie along each side of the square.
+/// Paving slabs along each side of the square.
 const SLABS: u32 = 14;
 const SLAB: f64 = 1.5;
 const JOINT: f64 = 0.03;
@@ -99,8 +99,8 @@ fn add_square(builder: &mut MeshBuilder) {
 /// Adds a branch, its twigs and, as one more object, its leaves.
 fn add_branch(builder: &mut MeshBuilder, branch: u32) {
     let chance = |property: u32| scattered(branch, property);
-    // Turned on by the golden angle each, branches spread around the trunk without a pattern; the last ones are the
-    // steepest.
+    // Turned by the golden angle from one to the next, branches spread around the trunk without a pattern; the last
+    // ones are the steepest.
     let (sin, cos) = (2.399_963 * f64::from(branch)).sin_cos();
     let steep = f64::from(branch) / f64::from(BRANCHES - 1);
     let outward = DVec3::new(cos, 0.0, sin) * (2.2 - 1.7 * steep * steep + 0.3 * chance(0));
@@ -128,7 +128,7 @@ fn add_branch(builder: &mut MeshBuilder, branch: u32) {
 
 /// The corners of a leaf near a twig's tip: stalk, right, tip, left.
 fn leaf_corners(twig_tip: DVec3, leaf: u32) -> [DVec3; 4] {
-    // The cube root would fill the ball evenly; less draws the leaves together round the twig's end.
+    // The cube root would fill the ball evenly; a smaller exponent gathers the leaves around the twig's end.
     let stalk = twig_tip + TUFT_RADIUS * scattered(leaf, 2).sqrt() * direction(leaf, 0);
     // Most leaves turn their upper side to the sky.
     let up = (direction(leaf, 3) + 0.6 * DVec3::Y).normalize_or(DVec3::Y);
@@ -139,7 +139,7 @@ fn leaf_corners(twig_tip: DVec3, leaf: u32) -> [DVec3; 4] {
     [stalk, widest + half_width, stalk + size * LEAF_LENGTH * along, widest - half_width]
 }
 
-/// A direction that looks random, all equally likely. It uses up two properties.
+/// A pseudo-random direction, uniformly distributed. It uses up two properties.
 fn direction(thing: u32, property: u32) -> DVec3 {
     let y = 2.0 * scattered(thing, property) - 1.0;
     let (sin, cos) = (std::f64::consts::TAU * scattered(thing, property + 1)).sin_cos();

@@ -1,4 +1,4 @@
-//! The scenes that need no file: made by code, each showing one thing.
+//! Built-in scenes, made by code.
 
 mod behind;
 mod chess_board;
@@ -15,15 +15,15 @@ use super::loaded::LoadedScene;
 /// A built-in scene.
 #[derive(Clone, Copy)]
 pub struct BuiltIn {
-    /// What the command line calls it.
+    /// Its name on the command line.
     pub name: &'static str,
-    /// What it shows.
+    /// A description.
     pub shows: &'static str,
-    /// Makes it.
+    /// Builds it.
     pub make: fn() -> LoadedScene,
 }
 
-/// All of them.
+/// All built-in scenes.
 pub const BUILT_IN: [BuiltIn; 8] = [
     BuiltIn {
         name: "chess-board",

@@ -83,7 +83,7 @@ pub(super) fn make() -> LoadedScene {
     }
 }
 
-/// Floor, ceiling and walls. They reach into each other, but each by another length, so that no two faces coincide.
+/// Floor, ceiling and walls. They overlap, each by a different length, so that no two faces coincide.
 fn add_shell(builder: &mut MeshBuilder) {
     let thickness = WALL_THICKNESS;
     let mut add = |min: [f64; 3], max: [f64; 3], colour| {
@@ -139,7 +139,7 @@ fn add_table(builder: &mut MeshBuilder) {
     for (x, z) in [(-0.74, -0.37), (0.74, -0.37), (-0.74, 0.37), (0.74, 0.37)] {
         add([x - 0.035, -0.02, z - 0.035], [x + 0.035, 0.715, z + 0.035]);
     }
-    // What stands on the table is sunk into it a little, so that no two surfaces coincide.
+    // Things on the table are sunk into it a little, so that no two surfaces coincide.
     for (profile, x, z) in [(&VASE[..], -0.25, -0.12), (&BOWL[..], 0.35, 0.08)] {
         let foot = TABLE + DVec3::new(x, 0.74, z);
         add_profile(builder, profile, foot, CHINA);
@@ -173,7 +173,7 @@ fn add_shelf(builder: &mut MeshBuilder) {
     let boards = [0.10, 0.50, 0.90, 1.30];
     for board in boards {
         add([left - 0.01, board, back + 0.01], [right + 0.01, board + 0.03, front - 0.01], OAK);
-        // Sizes that differ from book to book without any chance in them.
+        // Sizes that differ from book to book, deterministically.
         let mut x = left + 0.05;
         let mut book = (board * 10.0) as usize;
         while x < right - 0.12 - 0.07 * (book % 3) as f64 {

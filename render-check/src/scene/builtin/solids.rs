@@ -6,10 +6,10 @@ use shadowfit::glam::{DMat4, DVec2, DVec3, Vec3};
 
 use crate::scene::{MeshBuilder, Part};
 
-/// How many flat sides stand for a turned surface.
+/// Facets of a surface of revolution.
 const SIDES: u32 = 72;
 
-/// The cosine of the angle between two stretches of a profile from which on the edge between them looks sharp.
+/// The cosine of the angle between two segments of a profile beyond which their edge is shaded as sharp.
 const SHARP_EDGE_COSINE: f64 = 0.7;
 
 /// Adds a solid of revolution about the y axis. The profile runs from bottom to top as (radius, height).
@@ -17,7 +17,7 @@ pub(super) fn add_turned(builder: &mut MeshBuilder, profile: &[DVec2], world_fro
     let mut positions = Vec::new();
     let mut normals = Vec::new();
     let mut triangles = Vec::new();
-    // The outward normal of each stretch, in the plane of the profile.
+    // The outward normal of each segment, in the plane of the profile.
     let outward: Vec<DVec2> =
         profile.windows(2).map(|ends| -(ends[1] - ends[0]).perp().normalize_or_zero()).collect();
     let blended = |a: usize, b: Option<&DVec2>| match b {
@@ -28,7 +28,7 @@ pub(super) fn add_turned(builder: &mut MeshBuilder, profile: &[DVec2], world_fro
         let first = positions.len() as u32;
         let end_normals = [blended(i, i.checked_sub(1).map(|j| &outward[j])), blended(i, outward.get(i + 1))];
         for side in 0..=SIDES {
-            // The last side ends exactly where the first began, or the solid would be open along a seam.
+            // The last facet ends exactly where the first begins, or the solid would be open along a seam.
             let (sin, cos) = (TAU * f64::from(side % SIDES) / f64::from(SIDES)).sin_cos();
             for (end, normal) in ends.iter().zip(end_normals) {
                 positions.push(DVec3::new(end.x * cos, end.y, end.x * sin));
@@ -180,8 +180,8 @@ pub(super) fn add_boxes(
     builder.add(&Part { positions: &positions, normals: &[], triangles: &triangles, colour }, world_from_solid);
 }
 
-/// Adds several straight round bars as one object. Each is given by its two ends with the radius there, which is not
-/// zero. A bar has few sides: it is meant for what is thin.
+/// Adds several straight round bars as one object. Each is given by its two ends with the radius there, which is
+/// not zero. Bars have few facets, as they are meant to be thin.
 pub(super) fn add_bars(
     builder: &mut MeshBuilder,
     bars: &[[(DVec3, f64); 2]],
@@ -222,7 +222,7 @@ pub(super) fn add_bars(
         .add(&Part { positions: &positions, normals: &normals, triangles: &triangles, colour }, world_from_solid);
 }
 
-/// A number from 0 up to 1 that looks random, the same each time for the same thing and the same property of it.
+/// A pseudo-random number from 0 up to 1, a function of an object and one of its properties.
 pub(super) fn scattered(thing: u32, property: u32) -> f64 {
     let mut bits = thing.wrapping_mul(0x9e37_79b9) ^ property.wrapping_add(1).wrapping_mul(0x85eb_ca6b);
     for factor in [0x7feb_352d, 0x846c_a68b, 1] {
@@ -231,8 +231,8 @@ pub(super) fn scattered(thing: u32, property: u32) -> f64 {
     f64::from(bits) / (f64::from(u32::MAX) + 1.0)
 }
 
-/// How many edges of an object's triangles have no neighbour: none, where it is closed. Corners less than a tenth
-/// of a micrometre apart count as one, if the unit is a metre.
+/// The number of boundary edges of an object: zero where it is watertight. Corners less than 1e-7 apart count as
+/// one.
 #[cfg(test)]
 pub(super) fn open_edges(mesh: &crate::scene::Mesh, object: &crate::scene::Object) -> usize {
     let mut balance = std::collections::HashMap::new();

@@ -1,5 +1,5 @@
-//! A long straight street at a person's height: what is close by and what is far away stand in one picture. One unit
-//! is a metre; the street runs along the z axis, away from the camera towards −z.
+//! A long straight street from a person's height, with near and far surfaces in one picture. One unit is a metre;
+//! the street runs along the z axis, away from the camera towards −z.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -88,7 +88,7 @@ pub(super) fn make() -> LoadedScene {
     }
 }
 
-/// Adds what lies flat. Where two things overlap, their tops, bottoms and ends differ by centimetres, so that no two
+/// Adds the ground. Where two things overlap, their tops, bottoms and ends differ by centimetres, so that no two
 /// surfaces coincide.
 fn add_ground(builder: &mut MeshBuilder) {
     let mut add_strip = |x: [f64; 2], top: f64, inset: f64, colour| {

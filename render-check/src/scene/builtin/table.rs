@@ -14,7 +14,7 @@ const HALF_TABLE: DVec2 = DVec2::new(0.8, 0.5);
 const TABLE_HEIGHT: f64 = 0.74;
 const TABLE_THICKNESS: f64 = 0.03;
 const LEG_THICKNESS: f64 = 0.04;
-/// How deep what stands on something is let into it, so that no two faces lie in one plane.
+/// How deep things are sunk into what they stand on, so that no two faces are coplanar.
 const LET_IN: f64 = 0.004;
 
 const WOOD: [f32; 3] = [0.50, 0.31, 0.16];

@@ -25,7 +25,7 @@ fn view_of(scene: &LoadedScene) -> View {
     View::perspective(eye, forward, up, fov_y, ASPECT, near.expect("given"), far.expect("given")).expect("sound")
 }
 
-/// What a few rays through the picture meet, each with its ray.
+/// The hits of a few rays through the picture, each with its ray.
 fn seen(scene: &LoadedScene, tracer: &Tracer) -> Vec<(Ray, Hit)> {
     let lens = Lens::of_view(&view_of(scene)).expect("invertible");
     let rays = (0..60)
@@ -113,7 +113,7 @@ fn the_picture_is_full_and_what_it_shows_lies_before_the_far_plane() {
     }
 }
 
-/// Of what is seen and turned to the light, the share that lies in shadow.
+/// The fraction of visible surfaces facing the light that is in shadow.
 fn share_in_shadow(light: LightSpec, tracer: &Tracer, seen: &[(Ray, Hit)]) -> f64 {
     let (mut turned_to, mut shadowed) = (0, 0);
     for (ray, hit) in seen {

@@ -64,7 +64,7 @@ fn whole_scene() -> String {
     )
 }
 
-/// A scene whose one node shows the mesh, with one thing in the description replaced by another.
+/// A scene whose only node shows the mesh, with one thing in the JSON replaced by another.
 fn with_replaced(what: &str, by: &str) -> Result<LoadedScene> {
     let json = format!(
         r#"{{"asset": {{"version": "2.0"}}, "scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}], {MESH}}}"#
@@ -171,7 +171,7 @@ fn a_camera_that_is_not_what_it_says_does_no_harm() {
 fn a_file_with_any_byte_changed_or_cut_off_anywhere_never_panics() {
     let file = pack(&whole_scene(), &triangle_data());
     for i in 0..file.len() {
-        // The outcome does not matter here: many changes are harmless, the others are errors.
+        // Either outcome will do: many changes are harmless, the others are errors.
         drop(parse(&file[..i], "cut".into()));
         for byte in [0, b'-', b'9', b']', 0x7f, 0xff] {
             let mut changed = file.clone();

@@ -1,4 +1,4 @@
-//! Finds faces that overlap in one plane.
+//! Finds coplanar faces that overlap.
 
 use std::collections::HashMap;
 
@@ -6,12 +6,12 @@ use shadowfit::glam::{DVec2, DVec3};
 
 use crate::scene::Mesh;
 
-/// The area of an overlap that counts, in square metres: a square of a third of a millimetre.
+/// The smallest area of an overlap that counts, in square metres: a square of a third of a millimetre.
 const LEAST_AREA: f64 = 1e-7;
 
 /// Two triangles in one plane, back to back or front to front, that overlap.
 pub(super) fn find(mesh: &Mesh) -> Option<[usize; 2]> {
-    // Planes to six decimals: turned houses are off by roundings.
+    // Planes to six decimals, as turned houses are off by rounding.
     let mut by_plane: HashMap<[i64; 4], Vec<usize>> = HashMap::new();
     for triangle in 0..mesh.triangles.len() {
         let normal = mesh.face_normal(triangle);
