@@ -85,10 +85,18 @@ impl Plane {
     /// What planes are moved outwards by, of the sum of the magnitudes of their terms: 192 roundings.
     pub(crate) const SLACK: f64 = 96.0 * f64::EPSILON;
 
-    /// The plane with a unit normal, checked at the door.
+    /// The plane with a unit normal, if it is finite and has a direction.
     pub(crate) fn checked(&self, field: &'static str) -> Result<Self, InputError> {
-        let normal = check::direction(field, self.normal)?;
-        let offset = check::coordinate(field, self.offset * (normal.dot(self.normal)).recip())?;
+        let normal = check::direction(field, self.normal).map_err(|error| {
+            error.of_component(match error.component {
+                Some("x") => "normal.x",
+                Some("y") => "normal.y",
+                Some("z") => "normal.z",
+                _ => "normal",
+            })
+        })?;
+        let offset = check::coordinate(field, self.offset * (normal.dot(self.normal)).recip())
+            .map_err(|error| error.of_component("offset"))?;
         Ok(Self::new(normal, offset))
     }
 

@@ -1,4 +1,4 @@
-//! The checks that the constructors share, each naming its field.
+//! Checks that the constructors share; each names its field.
 
 use super::{Expected, InputError, InputErrorKind, MAX_COORDINATE, MIN_DISTANCE};
 use glam::DVec3;
@@ -7,12 +7,12 @@ pub(crate) const fn fail<T>(field: &'static str, problem: InputErrorKind) -> Res
     Err(InputError::new(field, problem))
 }
 
-/// What a coordinate must be.
+/// The range of coordinates.
 const COORDINATE: Expected = Expected::Within { least: -MAX_COORDINATE, most: MAX_COORDINATE };
-/// What a distance must be.
+/// The range of distances.
 const DISTANCE: Expected = Expected::Within { least: MIN_DISTANCE, most: MAX_COORDINATE };
 
-/// Zero for a number so small that products of a few of its kind would underflow: below 2⁻²⁰⁰, about 10⁻⁶⁰.
+/// Zero for numbers below 2⁻²⁰⁰, about 10⁻⁶⁰: products of a few of them would underflow.
 fn flushed(value: f64) -> f64 {
     const TINY: f64 = 6.223_015_277_861_142e-61;
     if value.abs() < TINY { 0.0 } else { value }
@@ -46,7 +46,7 @@ pub(crate) fn within(field: &'static str, value: f64, expected: Expected) -> Res
     let problem = if !value.is_finite() {
         InputErrorKind::NotFinite
     } else if value < least {
-        // A coordinate far below zero is as large as one above it.
+        // A large negative coordinate is too large, not too small.
         if value < -MAX_COORDINATE && least < 0.0 { InputErrorKind::TooLarge } else { InputErrorKind::TooSmall }
     } else if value > most {
         InputErrorKind::TooLarge
@@ -61,7 +61,7 @@ pub(crate) fn distance_or_infinity(field: &'static str, value: f64) -> Result<f6
     if value == f64::INFINITY { Ok(value) } else { distance(field, value) }
 }
 
-/// A number that must be greater than `other`, the argument `than`.
+/// Checks that a number is greater than `other`, the argument `than`.
 pub(crate) fn above(field: &'static str, value: f64, than: &'static str, other: f64) -> Result<(), InputError> {
     if value > other {
         return Ok(());
@@ -80,7 +80,7 @@ pub(crate) fn angle(field: &'static str, value: f64, above: f64, below: f64) -> 
         .expected(Expected::Between { above, below }))
 }
 
-/// A direction, made unit length whatever its length was; one that is unit length stays as it is to the last bit.
+/// A direction of any length, normalised; a unit vector keeps its bits.
 pub(crate) fn direction(field: &'static str, value: DVec3) -> Result<DVec3, InputError> {
     let components = value.to_array();
     if let Some(axis) = components.iter().position(|component| !component.is_finite()) {

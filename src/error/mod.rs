@@ -1,4 +1,4 @@
-//! What can be wrong with an input, and which field it is.
+//! Errors of the constructors: which field was refused, why, and what is allowed.
 
 pub(crate) mod check;
 mod hint;
@@ -10,18 +10,18 @@ use core::fmt;
 
 /// The largest coordinate, distance or extent accepted anywhere, in world units: 2⁴⁰, about 10¹².
 ///
-/// In f64 it leaves 12 bits for what lies within one unit, and squares of squares of it are still far from overflow in
-/// f64 as entries of a matrix are in f32.
+/// At that distance f64 still resolves a 4096th of a unit, its fourth power does not overflow f64, and entries of a matrix made
+/// from it do not overflow f32.
 pub const MAX_COORDINATE: f64 = 1_099_511_627_776.0;
 
 /// The smallest distance (near plane, light range, half height of an orthographic view) accepted, in world units:
 /// 2⁻⁴⁰, about 10⁻¹².
 pub const MIN_DISTANCE: f64 = 1.0 / MAX_COORDINATE;
 
-/// An input that no fit can be made from: which number it is, what is wrong with it, what it was, what is allowed, and, where one
-/// mistake is by far the likeliest, which.
+/// An argument that a constructor refused: the field, its index in a list, the value, the range allowed and, where one mistake is
+/// by far the likeliest, a hint.
 ///
-/// Every constructor checks its arguments once; past the door there are no errors, only results.
+/// Every constructor checks its arguments once. A fit takes checked inputs only and cannot fail. `docs/numerics.md` has the ranges.
 ///
 /// ```
 /// use shadowfit::{Aabb, Light, Scene, View, input::{Expected, Hint, InputErrorKind}};
@@ -41,51 +41,63 @@ pub const MIN_DISTANCE: f64 = 1.0 / MAX_COORDINATE;
 pub struct InputError {
     /// The name of the argument, as in the signature of the constructor that refused it.
     pub field: &'static str,
-    /// Where in a list it is.
+    /// Its index, where the argument is a list.
     pub index: Option<usize>,
-    /// Which number of a vector or a box it is, as `"y"` or `"min.y"`.
+    /// The component of a vector, a box or a matrix: `"y"`, `"min.y"`, `"z_axis.w"`.
     pub component: Option<&'static str>,
     /// What is wrong with it.
     pub problem: InputErrorKind,
-    /// The number that was refused.
+    /// The value that was refused.
     pub value: Option<f64>,
-    /// What it must be instead.
+    /// The values that are allowed.
     pub expected: Option<Expected>,
-    /// The likeliest mistake.
+    /// The likeliest cause, where there is one.
     pub hint: Option<Hint>,
 }
 
-/// What a refused number must be.
+/// The values allowed where one was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Expected {
-    /// From `least` to `most`, both of them allowed.
+    /// The closed range from `least` to `most`.
     Within {
-        /// The least that is allowed.
+        /// The smallest value allowed.
         least: f64,
-        /// The largest that is allowed.
+        /// The largest value allowed.
         most: f64,
     },
-    /// Between `above` and `below`, neither of them allowed.
+    /// The open range between `above` and `below`.
     Between {
-        /// What it must be above.
+        /// The lower bound, itself not allowed.
         above: f64,
-        /// What it must be below.
+        /// The upper bound, itself not allowed; may be infinite.
         below: f64,
     },
-    /// Greater than another argument.
+    /// Greater than another number.
     Above {
-        /// The name of the other argument.
+        /// The name of the other number.
         field: &'static str,
-        /// What that is.
+        /// Its value.
+        value: f64,
+    },
+    /// Less than another number.
+    Below {
+        /// The name of the other number.
+        field: &'static str,
+        /// Its value.
         value: f64,
     },
     /// No less than another number of the same box.
     AtLeast {
         /// The name of the other number.
         field: &'static str,
-        /// What that is.
+        /// Its value.
         value: f64,
+    },
+    /// A direction that is not parallel to another.
+    NotParallel {
+        /// The name of the other direction.
+        field: &'static str,
     },
 }
 
@@ -94,38 +106,42 @@ impl InputError {
         Self { field, index: None, component: None, problem, value: None, expected: None, hint: None }
     }
 
-    /// With the number that was refused.
+    /// The error with the value that was refused.
     pub(crate) const fn got(self, value: f64) -> Self {
         Self { value: Some(value), ..self }
     }
 
-    /// With what was expected of it.
+    /// The error with the values that are allowed.
     pub(crate) const fn expected(self, expected: Expected) -> Self {
         Self { expected: Some(expected), ..self }
     }
 
-    /// With the likeliest mistake, if there is one.
+    /// The error with the likeliest cause, if there is one.
     pub(crate) const fn hinted(self, hint: Option<Hint>) -> Self {
         Self { hint, ..self }
     }
 
-    /// Of one number of a vector: `axis` is 0 for x.
-    pub(crate) const fn of_axis(self, axis: usize) -> Self {
-        let component = match axis {
-            0 => "x",
-            1 => "y",
-            _ => "z",
-        };
+    /// The error of one component.
+    pub(crate) const fn of_component(self, component: &'static str) -> Self {
         Self { component: Some(component), ..self }
     }
 
-    /// Of an element of a list, or of all of it.
+    /// The error of one component of a vector: `axis` is 0 for x.
+    pub(crate) const fn of_axis(self, axis: usize) -> Self {
+        self.of_component(match axis {
+            0 => "x",
+            1 => "y",
+            _ => "z",
+        })
+    }
+
+    /// The error of an element of a list.
     pub(crate) const fn of_list(self, field: &'static str, index: usize) -> Self {
         Self { field, index: Some(index), ..self }
     }
 }
 
-/// A NaN that was refused is equal to the same one.
+/// Values are compared by their bits, so that errors about the same NaN are equal.
 impl PartialEq for InputError {
     fn eq(&self, other: &Self) -> bool {
         let bits = |error: &Self| error.value.map(f64::to_bits);
@@ -135,69 +151,78 @@ impl PartialEq for InputError {
     }
 }
 
-/// What is wrong with a field.
+/// The kind of mistake in a field; [`InputError`]'s message adds value, range and hint.
+///
+/// ```
+/// use shadowfit::{Light, input::InputErrorKind};
+///
+/// let error = Light::directional((0.0, 0.0, 0.0)).unwrap_err();
+/// assert_eq!(error.problem, InputErrorKind::NoDirection);
+/// assert_eq!(error.to_string(), "direction_to_light is the zero vector, which has no direction");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum InputErrorKind {
-    /// NaN or infinite where a number is needed.
+    /// NaN, or infinite where only finite numbers are allowed.
     NotFinite,
-    /// A length or count that must be positive and no smaller than [`MIN_DISTANCE`], or a part less than 0.
+    /// Below the smallest value allowed: [`MIN_DISTANCE`] for lengths, 0 for fractions, or as documented.
     TooSmall,
-    /// Larger than [`MAX_COORDINATE`], or than what its documentation allows.
+    /// Above the largest value allowed: [`MAX_COORDINATE`], or as documented.
     TooLarge,
     /// A direction of length zero.
     NoDirection,
-    /// A direction along another one that it must span a plane with.
+    /// A direction parallel to one that it must span a plane with.
     Parallel,
     /// An angle outside its open range.
     AngleOutOfRange,
-    /// A minimum above its maximum: a near plane beyond the far one, a box turned inside out.
+    /// A minimum above its maximum: a near plane beyond the far one, an inverted box.
     OutOfOrder,
-    /// A matrix that takes space to a plane or less: there is no image.
+    /// A singular matrix: it flattens space, so that there is no image.
     Singular,
-    /// The axes of a stored view, where they are not those that [`View`](crate::View) guarantees.
+    /// Axes of a stored view that are not orthonormal, see the guarantees of [`View`](crate::View).
     NotOrthonormal,
-    /// A projection that is neither perspective nor orthographic: lines of sight neither meet in an eye nor run side by side
-    /// with a positive w.
+    /// A matrix that is neither a perspective nor an orthographic projection with positive w.
     NotAProjection,
-    /// A matrix that is made for row vectors: its transpose would be one for column vectors.
+    /// A matrix made for row vectors: pass its transpose.
     LooksTransposed,
-    /// A depth range with near and far exchanged, which the convention with reversed depth would put right.
+    /// Near and far exchanged: the matrix fits the other direction of depth, [`ClipSpace::reversed`](crate::ClipSpace::reversed).
     LooksReversed,
-    /// A range of depths that misses the view, or a near plane that leaves nothing of it.
+    /// A depth range that misses the view, or a near plane that cuts all of it off.
     OutsideView,
-    /// A light that shines neither all around nor into a half space.
+    /// A light that is neither a point light nor a hemisphere.
     NotAllAround,
-    /// A light that shines into no cone.
+    /// A light that is no spot.
     NotASpot,
-    /// A list with nothing in it.
+    /// An empty list.
     Empty,
-    /// A list longer than its documentation allows.
+    /// More elements than allowed.
     TooMany,
-    /// An index that is past the end of its list.
+    /// An index past the end of its list.
     OutOfRange,
 }
 
 impl fmt::Display for InputErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::NotFinite => "is not a finite number",
+            Self::NotFinite => "must be finite",
             Self::TooSmall => "is too small",
             Self::TooLarge => "is too large",
-            Self::NoDirection => "has length zero, and no direction",
-            Self::Parallel => "is parallel to the direction it must differ from",
-            Self::AngleOutOfRange => "is outside the open range of its angle",
+            Self::NoDirection => "is the zero vector, which has no direction",
+            Self::Parallel => "is parallel to the direction that it must span a plane with",
+            Self::AngleOutOfRange => "is outside the range of its angle",
             Self::OutOfOrder => "has its minimum above its maximum",
-            Self::Singular => "takes space to a plane or less",
-            Self::NotOrthonormal => "is not of unit length and at right angles to the other axes",
-            Self::NotAProjection => "is neither perspective nor orthographic with a positive w",
-            Self::LooksTransposed => "looks transposed: vectors are columns here, so pass its transpose",
-            Self::LooksReversed => "has near and far exchanged for this matrix: try `ClipSpace::reversed`",
-            Self::OutsideView => "lies outside of the view's own depths",
-            Self::NotASpot => "is no spot",
-            Self::NotAllAround => "shines neither all around nor into a half space",
-            Self::Empty => "is empty",
-            Self::TooMany => "holds too many elements",
+            Self::Singular => "is singular: it flattens space to a plane or less",
+            Self::NotOrthonormal => "and the other axes must be unit vectors at right angles",
+            Self::NotAProjection => "is neither a perspective nor an orthographic projection with positive w",
+            Self::LooksTransposed => "looks transposed: it is made for row vectors. Pass its transpose",
+            Self::LooksReversed => {
+                "does not fit the matrix: near and far are exchanged. Reversed depth? Try `clip.reversed()`"
+            }
+            Self::OutsideView => "leaves nothing of the view. An oblique plane with the wrong sign?",
+            Self::NotASpot => "must be a spot",
+            Self::NotAllAround => "must be a point light or a hemisphere: no other has cube faces",
+            Self::Empty => "must not be empty",
+            Self::TooMany => "has too many elements",
             Self::OutOfRange => "has an index past the end of its list",
         })
     }

@@ -1,8 +1,8 @@
-//! Clip conventions: how a projection matrix, read or written, numbers depth and height.
+//! Clip conventions: the directions and ranges of depth and y in a projection matrix.
 
 use crate::convex::Plane;
 
-/// How normalised depth runs from the near plane to the far one.
+/// The depth range of clip space: the values at the near and the far plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum DepthRange {
@@ -10,6 +10,8 @@ pub enum DepthRange {
     #[default]
     ZeroToOne,
     /// 1 near, 0 far: reversed z on the same APIs. The depth test is 'greater'.
+    #[doc(alias = "reversed z")]
+    #[doc(alias = "reverse z")]
     ZeroToOneReversed,
     /// −1 near, 1 far: OpenGL. The depth test is 'less'.
     NegativeOneToOne,
@@ -28,32 +30,54 @@ pub enum YAxis {
     Down,
 }
 
-/// Which corner of a texture has the coordinates (0, 0).
+/// The corner of a texture with the coordinates (0, 0).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum TextureOrigin {
     /// Top left: wgpu, Direct3D, Metal, Vulkan.
     #[default]
     TopLeft,
-    /// Bottom left: OpenGL. With y down, this is OpenGL drawn upside down, its rasteriser as it is by default; drawn
-    /// upright with `glClipControl(GL_UPPER_LEFT, …)`, its textures begin top left and y is up.
+    /// Bottom left: OpenGL. With `glClipControl(GL_UPPER_LEFT, …)` choose [`Self::TopLeft`] and y up; for images drawn upside
+    /// down without it, choose this and y down.
     BottomLeft,
 }
 
-/// A clip convention: what a graphics API, or a projection matrix made for it, means by depth and by up.
+/// A clip convention: the depth range and y axis of a graphics API, for matrices read ([`View::from_matrices`]) and written
+/// ([`Settings::with_clip`]).
+///
+/// [`View::from_matrices`]: crate::View::from_matrices
+/// [`Settings::with_clip`]: crate::Settings::with_clip
+///
+/// ```
+/// use shadowfit::{ClipSpace, input::{DepthRange, TextureOrigin, YAxis}};
+///
+/// assert_eq!(ClipSpace::default(), ClipSpace::WGPU);
+/// assert_eq!(ClipSpace::VULKAN.y, YAxis::Down);
+/// assert_eq!(ClipSpace::OPENGL.depth, DepthRange::NegativeOneToOne);
+/// assert_eq!(ClipSpace::OPENGL.texture_origin, TextureOrigin::BottomLeft);
+/// ```
+#[doc(alias = "NDC")]
+#[doc(alias = "clip convention")]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClipSpace {
-    /// How depth runs.
+    /// The depth range.
     pub depth: DepthRange,
-    /// Which way y runs.
+    /// The direction of y.
     pub y: YAxis,
-    /// Where textures begin; only the texture-space matrices depend on it.
+    /// The origin of texture coordinates; only matrices to texture space depend on it.
     pub texture_origin: TextureOrigin,
 }
 
 impl DepthRange {
     /// Whether the near plane has the larger value, so that the depth test is 'greater'.
+    ///
+    /// ```
+    /// use shadowfit::ClipSpace;
+    ///
+    /// assert!(!ClipSpace::WGPU.depth.is_reversed());
+    /// assert!(ClipSpace::WGPU.reversed().depth.is_reversed());
+    /// ```
     #[must_use]
     pub const fn is_reversed(self) -> bool {
         matches!(self, Self::ZeroToOneReversed | Self::NegativeOneToOneReversed)
@@ -61,7 +85,7 @@ impl DepthRange {
 
     /// The near and the far plane, not negative inside, of a matrix by its rows z and w.
     ///
-    /// Where a plane is z itself, that keeps all of its digits: beside w, those of a reversed far plane would be lost.
+    /// Where a plane is the row z itself, it is not computed from sums with w: a reversed far plane would lose its digits there.
     pub(crate) fn ends<T>(self, z: T, w: T) -> [T; 2]
     where
         T: Copy + core::ops::Add<Output = T> + core::ops::Sub<Output = T>,
@@ -86,6 +110,14 @@ impl ClipSpace {
         Self { depth: DepthRange::NegativeOneToOne, y: YAxis::Up, texture_origin: TextureOrigin::BottomLeft };
 
     /// The same convention with near and far exchanged: reversed z.
+    ///
+    /// ```
+    /// use shadowfit::{ClipSpace, input::DepthRange};
+    ///
+    /// assert_eq!(ClipSpace::WGPU.reversed().depth, DepthRange::ZeroToOneReversed);
+    /// assert_eq!(ClipSpace::OPENGL.reversed().reversed(), ClipSpace::OPENGL);
+    /// ```
+    #[doc(alias = "reversed z")]
     #[must_use]
     pub const fn reversed(self) -> Self {
         let depth = match self.depth {
@@ -113,10 +145,10 @@ impl ClipSpace {
     }
 
     /// Rows of the texture-space matrix from rows with depth 0 to 1 and y up: after the division, (x, y) are texture
-    /// coordinates in [0, 1]² and z is what the depth buffer holds.
+    /// coordinates in [0, 1]² and z is the value in the depth buffer.
     ///
-    /// It is the product that Kilgard (2000) loads as the texture-coordinate generation planes, `Tscale · Tbias ·
-    /// Plight · Vlight`, without his multiplication by the inverse of the eye's view: it takes world positions.
+    /// It is the product `Tscale · Tbias · Plight · Vlight` of Kilgard (2000), for world positions: without his multiplication by
+    /// the inverse of the eye's view.
     pub(crate) fn texture_rows_from_wgpu(self, [x, y, z, w]: [Plane; 4]) -> [Plane; 4] {
         // Only OpenGL stores the bottom row first while y points up; everywhere else the first row is the top one.
         let up = (self.y, self.texture_origin) == (YAxis::Up, TextureOrigin::BottomLeft);

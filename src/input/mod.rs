@@ -1,7 +1,7 @@
-//! What goes in, checked once: views, lights, scenes, and the conventions they come in.
+//! Inputs: views, lights, scenes, and the clip conventions that matrices come in.
 //!
-//! [`View`](crate::View), [`Light`](crate::Light) and [`Scene`](crate::Scene) are at the root of the crate; here is what
-//! they are made from and answer with, and what an [`InputError`](crate::InputError) says.
+//! [`View`](crate::View), [`Light`](crate::Light) and [`Scene`](crate::Scene) are at the root of the crate; this module has the
+//! types of their arguments and results, and the parts of an [`InputError`](crate::InputError).
 
 pub(crate) mod clip_space;
 pub(crate) mod light;

@@ -1,17 +1,16 @@
-//! Vectors and matrices of any library, at the door.
+//! Vectors and matrices of any library.
 //!
-//! What all of them have in common are arrays: each turns its vectors into `[f32; 3]` or `[f64; 3]`, and its matrices into arrays
-//! of four columns. So that is what the constructors take, and no version of any of them is pinned.
+//! Every mathematics library converts its vectors into `[f32; 3]` or `[f64; 3]` and its matrices into arrays of four columns.
+//! Constructors take those, so that no version of any library is pinned.
 
 use glam::{DMat4, DVec3, Mat4};
 
-/// Three numbers as they are computed with.
+/// A vector in f64.
 pub(crate) fn vector<F: Into<f64>>(vector: impl Into<[F; 3]>) -> DVec3 {
     DVec3::from(vector.into().map(Into::into))
 }
 
-/// A 4×4 matrix for column vectors, of any library, in single or double precision: arrays of four columns, and all that
-/// converts into those.
+/// A 4×4 matrix for column vectors, of any library, in f32 or f64: an array of four columns, or a type that converts into one.
 ///
 /// | from | as |
 /// |---|---|
@@ -20,10 +19,10 @@ pub(crate) fn vector<F: Into<f64>>(vector: impl Into<[F; 3]>) -> DVec3 {
 /// | nalgebra, cgmath, mint's `ColumnMatrix4` | itself |
 /// | 16 numbers, column after column | `glam::Mat4::from_cols_array(&numbers)` |
 ///
-/// Results go back the same way: `map.caster_matrix().to_cols_array_2d()` is what every library's `from` takes.
+/// Results go back the same way: every library's `from` takes `map.caster_matrix().to_cols_array_2d()`.
 ///
-/// `Columns` is found by the compiler. A matrix kept by rows (mint's `RowMatrix4`) converts into an array of its rows, which is
-/// its transpose: convert it to columns first.
+/// The compiler infers `Columns`. A row-major matrix (mint's `RowMatrix4`) converts into an array of its rows, which is the
+/// transpose: convert it to columns first.
 ///
 /// ```
 /// use shadowfit::{ClipSpace, View, glam::Mat4};
@@ -41,7 +40,7 @@ pub(crate) fn vector<F: Into<f64>>(vector: impl Into<[F; 3]>) -> DVec3 {
 /// # Ok::<(), shadowfit::InputError>(())
 /// ```
 pub trait IntoMatrix<Columns> {
-    /// The matrix as it is computed with.
+    /// The matrix in f64.
     fn into_matrix(self) -> DMat4;
 }
 

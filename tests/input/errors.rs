@@ -1,13 +1,13 @@
-//! Hard case 36: what cannot be fitted is refused at the door, with the name of the field; never a panic, a hang or
-//! a NaN in a result.
+//! Hard case 36 (`docs/hard-cases.md`): constructors refuse invalid input and name the field; never a panic, a hang or a NaN in a
+//! result.
 
 use shadowfit::glam::{DMat4, DVec3, DVec4, Vec3};
 #[cfg(feature = "std")]
 use shadowfit::plan::{Budget, Object, Objects};
 use shadowfit::{
-    Aabb, ClipSpace, InputError, Light, Outcome, Scene, Settings, View, fit,
+    Aabb, ClipSpace, InputError, Light, Outcome, Scene, Settings, View, Warp, fit,
     focus::Plane,
-    input::{ConvexScene, InputErrorKind, MAX_COORDINATE, MIN_DISTANCE},
+    input::{ConvexScene, InputErrorKind, MAX_COORDINATE, MIN_DISTANCE, Tangents},
     omni::CubeFace,
 };
 
@@ -503,7 +503,61 @@ fn messages_are_sentences() {
         Scene::new(&boxes[..2], &[Aabb::new(Vec3::splat(f32::MIN), Vec3::splat(f32::MAX))]).unwrap_err(),
         ConvexScene::new(DVec3::ZERO, DVec3::ONE, &[Plane::new(DVec3::X, 0.0), Plane::ONE]).unwrap_err(),
         Settings::default().with_border(4000).unwrap_err(),
+        Light::point((f64::NEG_INFINITY, 0.0, 0.0), 0.1, 9.0).unwrap_err(),
+        View::perspective(EYE, DVec3::X, DVec3::Y, DENORMAL, 1.0, 0.1, 9.0).unwrap_err(),
+        View::perspective(EYE, DVec3::X, DVec3::Y, 1.0, 0.0, 0.1, 9.0).unwrap_err(),
+        View::perspective(EYE, DVec3::X, DVec3::Y, 1.0, 1.0, 0.1, 0.0).unwrap_err(),
+        Tangents::from_angles(-45.0, 45.0, -45.0, 45.0).unwrap_err(),
+        Tangents::from_angles(-0.8, NAN, -0.8, 0.8).unwrap_err(),
+        view_of(Tangents { left: 0.5, right: -0.5, bottom: -0.5, top: 0.5 }).unwrap_err(),
+        view_of(Tangents { left: -0.5, right: 0.5, bottom: NAN, top: 0.5 }).unwrap_err(),
+        view().narrowed(100.0, 200.0).unwrap_err(),
+        view().narrowed(0.01, 0.05).unwrap_err(),
+        Light::spot(EYE, DVec3::X, 0.5, 0.1, 9.0).unwrap().with_up(DVec3::X).unwrap_err(),
+        Light::point(EYE, 0.1, 9.0).unwrap().with_up(DVec3::X).unwrap_err(),
+        Light::directional(DVec3::Y).unwrap().within(&[Plane::new(DVec3::X, 0.0); 7]).unwrap_err(),
+        Light::pyramid(EYE, DVec3::X, DVec3::Y, [0.5, 300.0], 0.1, 9.0).unwrap_err(),
+        Settings::new(1, 1080).unwrap_err(),
     ];
     let text = messages.map(|message| message.to_string()).join("\n");
     insta::assert_snapshot!(text);
+}
+
+/// The messages about matrices: the entry, the value, and what to try.
+#[test]
+fn messages_about_matrices() {
+    let (eye_from_world, clip_from_eye) = matrices();
+    let mut broken = clip_from_eye;
+    broken.z_axis.w = NAN;
+    let lens =
+        |x: DVec4, z: f64, w: f64| DMat4::from_cols(x, DVec4::Y * 1.5, DVec4::new(0.0, 0.0, z, -1.0), DVec4::Z * w);
+    let (behind, oblique) = (lens(DVec4::X, -2.0, 1.0), lens(DVec4::new(1.0, 0.0, 1e-3, 0.0), 1.0, -1.0));
+    let sun = Light::directional(DVec3::new(0.3, 1.0, 0.1)).unwrap();
+    let ground = Scene::from_box((-50.0, 0.0, -50.0), (50.0, 5.0, 50.0)).unwrap();
+    let Outcome::Map(map) = fit(&view(), &sun, &ground, &Settings::default().with_warp(Warp::LightSpace)) else {
+        panic!("a map");
+    };
+    let (wgpu, reversed) = (ClipSpace::WGPU, ClipSpace::WGPU.reversed());
+    let messages = [
+        View::from_matrices(eye_from_world, broken, wgpu),
+        View::from_matrices(eye_from_world.transpose(), clip_from_eye, wgpu),
+        View::from_matrices(eye_from_world, clip_from_eye.transpose(), wgpu),
+        View::from_matrices(eye_from_world, clip_from_eye, reversed),
+        View::from_matrices(eye_from_world, behind, wgpu),
+        View::from_clip_from_world(behind, wgpu),
+        View::from_matrices(eye_from_world, oblique, wgpu),
+        View::from_clip_from_world(-DMat4::IDENTITY, wgpu),
+        View::from_clip_from_world(map.clip_from_world(), wgpu),
+        View::from_clip_from_world(DMat4::from_scale(DVec3::new(1.0, 0.0, 1.0)), wgpu),
+    ];
+    let text = messages.map(|message| message.unwrap_err().to_string()).join("\n");
+    insta::assert_snapshot!(text);
+}
+
+fn view() -> View {
+    View::perspective(EYE, DVec3::X, DVec3::Y, 1.0, 1.0, 0.1, 80.0).unwrap()
+}
+
+fn view_of(tangents: Tangents) -> Result<View, InputError> {
+    View::from_tangents(EYE, DVec3::X, DVec3::Y, tangents, 0.1, 80.0)
 }

@@ -87,13 +87,13 @@ fn tampered_views() {
     tampered(&view, "/near", json!(501.0), "far (500) must be greater than near (501)");
     tampered(&view, "/far", json!(1e300), "far must lie in [2⁻⁴⁰, 2⁴⁰]");
     tampered(&view, "/eye/0", json!(1e300), "eye.x must lie in [−2⁴⁰, 2⁴⁰]");
-    tampered(&view, "/forward/0", json!(0.5), "forward is not of unit length");
-    tampered(&view, "/up", json!([0.0, 0.0, 0.0]), "forward is not of unit length");
+    tampered(&view, "/forward/0", json!(0.5), "forward and the other axes must be unit vectors");
+    tampered(&view, "/up", json!([0.0, 0.0, 0.0]), "forward and the other axes must be unit vectors");
     // A ten-thousandth too long: far beyond rounding, and within what glam calls normalized.
     let long = (view.right() * 1.00005).to_array();
-    tampered(&view, "/right", json!(long), "forward is not of unit length");
-    tampered(&view, "/frame_min/0", json!(9.0), "frame has its minimum above its maximum");
-    tampered(&view, "/lean", json!(0.5), "forward is not of unit length");
+    tampered(&view, "/right", json!(long), "forward and the other axes must be unit vectors");
+    tampered(&view, "/frame_min/0", json!(9.0), "must be greater than left (9)");
+    tampered(&view, "/lean", json!(0.5), "forward and the other axes must be unit vectors");
     tampered(&view, "/lens", json!("Fisheye"), "unknown variant");
     tampered(&view, "/near", Value::Null, "null");
     // Only a perspective view sees infinitely far.
@@ -144,13 +144,13 @@ fn tampered_lights() {
         json!(1.6),
         "half_angle must lie in (1e-9, π/2 − 1e-9) radians; got 1.6",
     );
-    tampered(&spot, &place("shape/Spot/axis"), json!([0.0, 0.0, 0.0]), "axis has length zero");
+    tampered(&spot, &place("shape/Spot/axis"), json!([0.0, 0.0, 0.0]), "axis is the zero vector");
     let face = Light::point((0.3, 1.0, 0.2), 0.1, 9.0).unwrap().cube_face(CubeFace::PositiveZ, 0.01).unwrap();
     tampered(&face, &place("shape/CubeFace/overlap"), json!(-0.1), "overlap must lie in [0, 1]; got -0.1");
-    tampered(&face, &place("shape/CubeFace/hemisphere"), json!([0.0, 0.0, 0.0]), "axis has length zero");
+    tampered(&face, &place("shape/CubeFace/hemisphere"), json!([0.0, 0.0, 0.0]), "axis is the zero vector");
     let sun = Light::directional(DVec3::Y).unwrap();
     let place = "/kind/Directional/direction_to_light";
-    tampered(&sun, place, json!([0.0, -0.0, 0.0]), "direction_to_light has length zero");
+    tampered(&sun, place, json!([0.0, -0.0, 0.0]), "direction_to_light is the zero vector");
 }
 
 #[test]

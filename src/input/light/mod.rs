@@ -1,4 +1,4 @@
-//! The light l, and L, what it can light.
+//! The light l and the region L that it reaches.
 
 mod cube;
 #[cfg(feature = "serde")]
@@ -14,15 +14,30 @@ use crate::math::list::list;
 use core::f64::consts::{FRAC_PI_2, PI};
 use glam::{DVec2, DVec3, DVec4};
 
-/// A light: a homogeneous point l and a convex region L outside of which it lights nothing.
+/// A light: a homogeneous point l and the convex region L that it reaches.
 ///
-/// Directions of light point **towards** the light. The axis of a spot or a hemisphere is the axis of the region it
-/// lights and points **away** from the light.
+/// Directions of light point **towards** the light. The axis of a spot, a pyramid or a hemisphere points **away** from the light,
+/// along the middle of its region.
+///
+/// ```
+/// use shadowfit::{Light, glam::{DVec3, DVec4}};
+///
+/// let sun = Light::directional((0.0, 2.0, 0.0))?;
+/// assert_eq!((sun.homogeneous(), sun.position()), (DVec4::Y, None));
+/// assert_eq!((sun.near(), sun.range()), (0.0, f64::INFINITY));
+///
+/// let bulb = Light::point((0.0, 3.0, 0.0), 0.1, 20.0)?;
+/// assert_eq!((bulb.homogeneous(), bulb.position()), (DVec4::new(0.0, 3.0, 0.0, 1.0), Some(DVec3::Y * 3.0)));
+/// assert_eq!((bulb.near(), bulb.range()), (0.1, 20.0));
+/// assert_eq!(bulb.direction_from(DVec3::ZERO), DVec3::Y);
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
+#[doc(alias = "lamp")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "stored::Light"))]
 pub struct Light {
     kind: Kind,
-    /// Planes of L besides those of its kind, inside ≥ 0, with unit normals.
+    /// Planes of L from [`Light::within`], inside ≥ 0, with unit normals.
     within: Within,
 }
 
@@ -43,19 +58,19 @@ enum Kind {
     },
 }
 
-/// How a light at a position spreads.
+/// The shape of a local light's region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 enum Shape {
     Point,
-    /// `half_angle` in radians; the unit `up`, across the axis, where the pyramid around the cone is turned.
+    /// `half_angle` in radians; a unit `up` across the axis where [`Light::with_up`] rolls the pyramid around the cone.
     Spot {
         axis: DVec3,
         half_angle: f64,
         #[cfg_attr(feature = "serde", serde(default))]
         up: Option<DVec3>,
     },
-    /// Tangents of half the angles along `up`, across the axis and unit length, and across both.
+    /// Tangents of the half angles: across `up`, then along it. `up` is a unit vector across the axis.
     Pyramid {
         axis: DVec3,
         up: DVec3,
@@ -64,7 +79,7 @@ enum Shape {
     Hemisphere {
         axis: DVec3,
     },
-    /// What a point light or, with an axis, a hemisphere lights of a face.
+    /// The part of a point light or, with an axis, of a hemisphere within a face.
     CubeFace {
         face: CubeFace,
         overlap: f64,
@@ -73,38 +88,76 @@ enum Shape {
 }
 
 impl Light {
-    /// A light infinitely far away, as the sun: `direction_to_light` points from the scene **towards** it and need not
-    /// be unit length.
+    /// A directional light, infinitely far away, such as the sun. `direction_to_light` points from the scene **towards** the light,
+    /// in world space, and may have any length.
+    ///
+    /// ```
+    /// use shadowfit::{Light, glam::DVec3};
+    ///
+    /// let light_travels = [0.0, -1.0, 0.0]; // many engines keep this direction: negate it
+    /// let sun = Light::directional(light_travels.map(|x: f64| -x))?;
+    /// assert_eq!(sun.direction_from(DVec3::new(5.0, 0.0, 7.0)), DVec3::Y);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
     /// Names `"direction_to_light"` when it is zero or not finite.
+    #[doc(alias = "sun")]
+    #[doc(alias = "distant light")]
     pub fn directional<F: Into<f64>>(direction_to_light: impl Into<[F; 3]>) -> Result<Self, InputError> {
         let direction_to_light = check::direction("direction_to_light", vector(direction_to_light))?;
         Ok(Self { kind: Kind::Directional { direction_to_light }, within: [None; Self::MAX_WITHIN] })
     }
 
-    /// A light at a position that shines all around.
+    /// A point light: it shines from a position in all directions.
     ///
-    /// `near` is the distance from the light within which nothing need cast a shadow (the lamp's own bulb and shade): a map
-    /// may hold what is nearer or not, since a frustum begins at a plane. `range` is the distance the light reaches. Both are
-    /// in world units; `range` may be infinite.
+    /// `position` is in world space. Casters nearer than `near` may be left out of the map (the bulb and its shade); since a
+    /// frustum begins at a plane, some are in it. `range` is the distance that the light reaches. Both are in world units; `range`
+    /// may be infinite. One map serves only receivers within half a space ([`Surrounded`](crate::Surrounded)); for all around see
+    /// [`Self::cube_face`] and `docs/lights-all-around.md`.
+    ///
+    /// ```
+    /// use shadowfit::Light;
+    ///
+    /// let bulb = Light::point([0.0_f32, 3.0, 0.0], 0.1, 20.0)?;
+    /// assert_eq!(bulb.planes().len(), 6); // the box around its range
+    /// let error = Light::point([0.0_f32, 3.0, 0.0], 0.1, 0.0).unwrap_err();
+    /// assert_eq!(error.to_string(), "range must lie in [2⁻⁴⁰, 2⁴⁰]; got 0. No limit? That is f64::INFINITY.");
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
     /// Names the field that is not finite, not positive, or out of order.
+    #[doc(alias = "omni")]
+    #[doc(alias = "lamp")]
+    #[doc(alias = "bulb")]
     pub fn point<F: Into<f64>>(position: impl Into<[F; 3]>, near: f64, range: f64) -> Result<Self, InputError> {
         Self::local(vector(position), near, range, Shape::Point)
     }
 
-    /// A light at a position that shines into a cone.
+    /// A spot: it shines from a position into a cone.
     ///
-    /// `axis` points from the light along the middle of the cone, `half_angle` is the angle between the axis and the
-    /// cone's side in radians, in (0, π/2). `near` and `range` are as for [`Self::point`].
+    /// `axis` is a direction in world space, of any length, from the light along the middle of the cone. `half_angle` is the angle
+    /// between axis and side in radians, in (0, π/2). `near` and `range` are distances as for [`Self::point`].
+    ///
+    /// ```
+    /// use shadowfit::Light;
+    ///
+    /// let spot = |half_angle| Light::spot((0.0, 5.0, 0.0), (0.0, -1.0, 0.0), half_angle, 0.1, 30.0);
+    /// let light = spot(0.5)?;
+    /// let reaches = |x| light.planes().iter().all(|plane| plane.at((x, 1.0, 0.0).into()) >= 0.0);
+    /// assert!(reaches(4.0 * 0.49_f64.tan()) && !reaches(4.0 * 0.51_f64.tan()));
+    /// assert!(spot(30.0).unwrap_err().to_string().ends_with("radians; got 30. Degrees?"));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
-    /// Names the field that is not finite, without direction, outside its range, or out of order.
+    /// Names the field that is not finite, the zero vector, outside its range, or out of order.
+    #[doc(alias = "cone")]
+    #[doc(alias = "spotlight")]
     pub fn spot<F: Into<f64>, G: Into<f64>>(
         position: impl Into<[F; 3]>,
         axis: impl Into<[G; 3]>,
@@ -113,7 +166,7 @@ impl Light {
         range: f64,
     ) -> Result<Self, InputError> {
         let axis = check::direction("axis", vector(axis))?;
-        // A cone narrower than the smallest field of view, or within rounding of a half space, is neither.
+        // Narrower cones have no frustum, and wider ones are a half space but for rounding.
         const MARGIN: f64 = 1e-9;
         let half_angle = check::angle("half_angle", half_angle, MARGIN, FRAC_PI_2 - MARGIN).map_err(|error| {
             error.hinted(match half_angle {
@@ -125,12 +178,22 @@ impl Light {
         Self::local(vector(position), near, range, Shape::Spot { axis, half_angle, up: None })
     }
 
-    /// A light at a position that shines into the half space that `axis` points into, as a wall lamp does. `near` and
-    /// `range` are as for [`Self::point`].
+    /// A hemisphere light: it shines from a position into the half space around `axis`, as a light on a wall does. `near` and
+    /// `range` are distances as for [`Self::point`]. Paraboloid maps serve it: [`Focus::paraboloids`](crate::Focus::paraboloids).
+    ///
+    /// ```
+    /// use shadowfit::Light;
+    ///
+    /// let sconce = Light::hemisphere((0.0, 2.0, 0.0), (1.0, 0.0, 0.0), 0.05, 10.0)?;
+    /// let reaches = |x| sconce.planes().iter().all(|plane| plane.at((x, 0.0, 0.0).into()) >= 0.0);
+    /// assert!(reaches(1.0) && !reaches(-1.0));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
-    /// Names the field that is not finite, without direction, not positive, or out of order.
+    /// Names the field that is not finite, the zero vector, not positive, or out of order.
+    #[doc(alias = "wall lamp")]
     pub fn hemisphere<F: Into<f64>, G: Into<f64>>(
         position: impl Into<[F; 3]>,
         axis: impl Into<[G; 3]>,
@@ -141,11 +204,11 @@ impl Light {
         Self::local(vector(position), near, range, Shape::Hemisphere { axis })
     }
 
-    /// A light at a position that shines into a pyramid, as projectors and rectangular spots do.
+    /// A pyramid light: it shines from a position into a rectangular frustum, as projectors do.
     ///
-    /// `axis` points from the light along the middle of the pyramid, and `up` to one of its sides: it need not be across the axis.
-    /// `tangents` are those of half the angles between its sides: first across `up`, then along it, so that a picture w wide and
-    /// h high at distance d has `[0.5 * w / d, 0.5 * h / d]`. `near` and `range` are as for [`Self::point`].
+    /// `axis` is a direction from the light along the middle of the pyramid, and `up` one towards the upper side; it need not be
+    /// across the axis. `tangents` are those of the half angles, across `up` and along it: `[0.5 * w / d, 0.5 * h / d]` for a
+    /// picture w wide and h high at distance d. `near` and `range` are distances as for [`Self::point`].
     ///
     /// ```
     /// use shadowfit::Light;
@@ -159,8 +222,10 @@ impl Light {
     ///
     /// # Errors
     ///
-    /// Names the field that is not finite, without direction, parallel to the axis, not positive, or out of order; `"tangents"`
-    /// when one is above [`Self::MAX_TANGENT`] or not positive.
+    /// Names the field that is not finite, the zero vector, parallel to the axis, not positive, or out of order; `"tangents"` when
+    /// one is above [`Self::MAX_TANGENT`] or not positive.
+    #[doc(alias = "projector")]
+    #[doc(alias = "rectangular spot")]
     pub fn pyramid<F: Into<f64>, G: Into<f64>, U: Into<f64>>(
         position: impl Into<[F; 3]>,
         axis: impl Into<[G; 3]>,
@@ -178,11 +243,21 @@ impl Light {
         Self::local(vector(position), near, range, Shape::Pyramid { axis, up, tangents: tangents.into() })
     }
 
-    /// The largest tangent of [`Self::pyramid`]: half an angle of 89.8°.
+    /// The largest tangent of [`Self::pyramid`]: a half angle of 89.8°.
     pub const MAX_TANGENT: f64 = 256.0;
 
-    /// A spot turned about its axis, so that a side of the pyramid around its cone, which a stable map keeps to, looks along `up`:
-    /// the roll that a renderer's own shadow frustum has. `up` need not be across the axis.
+    /// The spot with a roll about its axis: a side of the pyramid around its cone faces `up`, as in a renderer's own shadow
+    /// frustum. Stabilised maps ([`Warp::Stable`](crate::Warp::Stable)) are aligned with that pyramid. `up` need not be across the
+    /// axis.
+    ///
+    /// ```
+    /// use shadowfit::{Light, glam::DVec3};
+    ///
+    /// let spot = Light::spot((0.0, 5.0, 0.0), (0.0, -1.0, 0.0), 0.5, 0.1, 30.0)?.with_up((1.0, 0.0, 1.0))?;
+    /// let side = DVec3::new(1.0, 0.0, 1.0).normalize();
+    /// assert!(spot.planes().iter().any(|plane| plane.normal.dot(side) > 0.87)); // cos 0.5
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
@@ -196,16 +271,15 @@ impl Light {
         Ok(Self { kind: Kind::Local { position, near, range, shape }, ..self })
     }
 
-    /// The same light where it reaches no farther than these planes, inside ≥ 0: barn doors, a window, the cell of a clustered
-    /// renderer, the box of a local sun. They take the place of others of this call before. Any light may have them, and the
-    /// faces of a cube inherit them.
+    /// The light with its region cut by planes, inside ≥ 0: barn doors, a window, the cell of a clustered renderer, the box of a
+    /// local sun. Any light may have them; they replace those of an earlier call, and faces of a cube inherit them.
     ///
-    /// L is then that much smaller, for receivers and for casters alike: what a plane cuts off neither is lit nor casts.
+    /// They bound L for receivers and casters alike: beyond a plane nothing is lit and nothing casts.
     ///
     /// ```
     /// use shadowfit::{Light, focus::Plane};
     ///
-    /// // A sun that shines in one room only.
+    /// // A sun in one room only.
     /// let (low, high) = (Plane::from([1.0, 0.0, 0.0, 4.0]), Plane::from([-1.0, 0.0, 0.0, 4.0]));
     /// let sun = Light::directional((0.3, 1.0, 0.2))?.within(&[low, high])?;
     /// assert_eq!(sun.planes().len(), 2);
@@ -214,35 +288,53 @@ impl Light {
     ///
     /// # Errors
     ///
-    /// Names `"planes"` when there are more than [`Self::MAX_WITHIN`], or, with its index, when one is not finite or without
-    /// direction.
+    /// Names `"planes"` when there are more than [`Self::MAX_WITHIN`], or, with its index, when one is not finite or has a zero
+    /// normal.
+    #[doc(alias = "barn doors")]
+    #[doc(alias = "light volume")]
     pub fn within(self, planes: &[Plane]) -> Result<Self, InputError> {
         if planes.len() > Self::MAX_WITHIN {
-            return check::fail("planes", InputErrorKind::TooMany);
+            let expected = Expected::Within { least: 0.0, most: Self::MAX_WITHIN as f64 };
+            let error = InputError::new("planes", InputErrorKind::TooMany).got(planes.len() as f64);
+            return Err(error.expected(expected));
         }
         let mut within = [None; Self::MAX_WITHIN];
         for (index, (slot, plane)) in within.iter_mut().zip(planes).enumerate() {
             let checked = plane.checked("planes").map_err(|error| error.of_list("planes", index))?;
-            // One with a unit normal stays as it is to the last bit.
+            // A plane with a unit normal keeps its bits.
             *slot = Some(if checked.normal == plane.normal { *plane } else { checked });
         }
         Ok(Self { within, ..self })
     }
 
-    /// The most planes of [`Self::within`].
+    /// The largest number of planes for [`Self::within`].
     pub const MAX_WITHIN: usize = 6;
 
-    /// The part of a point light or a hemisphere that shines through a face of the cube around it: where one map is not
-    /// enough, as within a room, six of these have one each.
+    /// The part of a point light or a hemisphere within a face of the cube around it: six of them, with a map each, serve
+    /// receivers all around (`docs/lights-all-around.md`).
     ///
-    /// `overlap` widens the face, so that a filter next to a seam reads in one map what it should: the sides stand at
-    /// tangent `1 + overlap` to the face's axis instead of 1. [`CubeFace::overlap`] says how much a filter needs. Which
-    /// face a point is in does not depend on it: [`CubeFace::of`].
+    /// `overlap` widens the face, so that a filter next to a seam stays in one map: the sides have the tangent `1 + overlap` to the
+    /// face's axis instead of 1. [`CubeFace::overlap`] is the overlap that a filter needs; [`CubeFace::of`] is the face of a
+    /// direction, whatever the overlap.
+    ///
+    /// ```
+    /// use shadowfit::{Light, Scene, Settings, View, fit, omni::CubeFace};
+    ///
+    /// let view = View::perspective((0.0, 1.7, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 50.0)?;
+    /// let room = Scene::from_box((-5.0, 0.0, -8.0), (5.0, 3.0, 8.0))?;
+    /// let bulb = Light::point((0.0, 1.5, -4.0), 0.05, 20.0)?;
+    /// assert!(fit(&view, &bulb, &room, &Settings::default()).map().is_none()); // receivers all around
+    /// let down = bulb.cube_face(CubeFace::NegativeY, CubeFace::overlap(1.0, 2048, 1))?;
+    /// assert!(fit(&view, &down, &room, &Settings::default()).map().is_some());
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
     /// Names `"light"` when it is directional, a spot, or a face already, and `"overlap"` when it is not in
     /// \[0, [`CubeFace::MAX_OVERLAP`]\].
+    #[doc(alias = "cube map")]
+    #[doc(alias = "omnidirectional shadow map")]
     pub fn cube_face(&self, face: CubeFace, overlap: f64) -> Result<Self, InputError> {
         let overlap = check::part("overlap", overlap, CubeFace::MAX_OVERLAP)?;
         let Kind::Local { position, near, range, shape } = self.kind else {
@@ -269,7 +361,7 @@ impl Light {
         Ok(Self { kind: Kind::Local { position, near, range, shape }, within })
     }
 
-    /// The light as a homogeneous point l: (position, 1), or (unit direction towards the light, 0).
+    /// The light as a homogeneous point l in world space: (position, 1), or (unit direction towards the light, 0).
     #[must_use]
     pub const fn homogeneous(&self) -> DVec4 {
         match self.kind {
@@ -278,7 +370,7 @@ impl Light {
         }
     }
 
-    /// Where the light is, unless it is infinitely far away.
+    /// The position of the light in world space; `None` for a directional light.
     #[must_use]
     pub const fn position(&self) -> Option<DVec3> {
         match self.kind {
@@ -287,7 +379,7 @@ impl Light {
         }
     }
 
-    /// The distance from a light at a position within which nothing casts, in world units; 0 for a directional light.
+    /// The near distance of a local light, within which casters may be left out, in world units; 0 for a directional light.
     #[must_use]
     pub const fn near(&self) -> f64 {
         match self.kind {
@@ -296,7 +388,7 @@ impl Light {
         }
     }
 
-    /// The distance that a light at a position reaches, in world units; infinite for a directional light.
+    /// The distance that a local light reaches, in world units; infinite for a directional light.
     #[must_use]
     pub const fn range(&self) -> f64 {
         match self.kind {
@@ -316,7 +408,7 @@ impl Light {
         }
     }
 
-    /// The unit direction from a point towards the light.
+    /// The unit direction from a world-space point towards the light; zero at the light's own position.
     #[must_use]
     pub fn direction_from(&self, point: DVec3) -> DVec3 {
         match self.kind {
@@ -325,11 +417,22 @@ impl Light {
         }
     }
 
-    /// The planes of L in world space, inside ≥ 0; none for a light without bounds.
+    /// The planes of L in world space, inside ≥ 0; none for an unbounded light.
     ///
-    /// A spot's are the four sides of the pyramid around its cone, its near plane and, with a finite range, its far
-    /// plane; a hemisphere's its near plane and the rest of a box; a point light's the box around its range. A cube
-    /// face's are those of a spot's pyramid, and a hemisphere's own plane. Those of [`Self::within`] come last.
+    /// A spot has the four sides of the pyramid around its cone, a near plane and, with a finite range, a far plane; a point light
+    /// the box around its range; a hemisphere the half of that box before its plane; a cube face the planes of a pyramid, and its
+    /// hemisphere's plane. Those of [`Self::within`] come last.
+    ///
+    /// ```
+    /// use shadowfit::{Light, focus::Plane};
+    ///
+    /// let sun = Light::directional((0.3, 1.0, 0.2))?;
+    /// assert!(sun.planes().is_empty());
+    /// let door = Plane::from([0.0, 0.0, 1.0, 4.0]);
+    /// let spot = Light::spot((0.0, 5.0, 0.0), (0.0, -1.0, 0.0), 0.5, 0.1, 30.0)?.within(&[door])?;
+    /// assert_eq!((spot.planes().len(), spot.planes()[6]), (7, door));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn planes(&self) -> LightPlanes {
         let mut planes = LightPlanes { planes: [Plane::ONE; Self::MAX_PLANES], len: 0 };
@@ -340,8 +443,8 @@ impl Light {
         planes
     }
 
-    /// The axes across and along the one frustum that is L, and the tangents of its sides: `[u, v, axis]`, of a spot, a
-    /// pyramid or a cube's face; seen along the axis, v is up and u to the right.
+    /// The axes `[u, v, axis]` of the frustum that bounds L, and the tangents of its sides, for a spot, a pyramid or a cube face;
+    /// seen along the axis, v is up and u to the right.
     pub(crate) fn frustum(&self) -> Option<([DVec3; 3], DVec2)> {
         match self.kind {
             Kind::Local { shape: Shape::Spot { axis, half_angle, up }, .. } => {
@@ -361,29 +464,43 @@ impl Light {
         }
     }
 
-    /// The most planes that L can have: those of a hemisphere's cube face, and those it is within.
+    /// The largest number of planes of L: a hemisphere's cube face has seven, besides those of [`Self::within`].
     pub(crate) const MAX_PLANES: usize = 7 + Self::MAX_WITHIN;
 }
 
 /// The unit direction across an axis towards `up`.
 fn across(axis: DVec3, up: DVec3) -> Result<DVec3, InputError> {
     let up = check::direction("up", up)?;
-    // One that is across already stays as it is to the last bit.
+    // A direction across the axis keeps its bits.
     let along = up.dot(axis);
     if along.abs() <= 4.0 * f64::EPSILON {
         return Ok(up);
     }
     let across = up - axis * along;
-    // Nearer to the axis than this its direction is rounding.
-    if across.length() < 1e-9 { check::fail("up", InputErrorKind::Parallel) } else { Ok(across.normalize()) }
+    // Closer to the axis, the part across it is mostly rounding.
+    if across.length() < 1e-9 {
+        let error = InputError::new("up", InputErrorKind::Parallel);
+        return Err(error.expected(Expected::NotParallel { field: "axis" }));
+    }
+    Ok(across.normalize())
 }
 
-/// The axes across a spot: those of any light with its axis, or turned to its own `up`.
+/// The axes across a spot: the default for its axis, or rolled to its own `up`.
 fn of_spot(axis: DVec3, up: Option<DVec3>) -> (DVec3, DVec3) {
     up.map_or_else(|| crate::math::frame::of_light(axis), |up| (axis.cross(up), up))
 }
 
-/// Up to thirteen planes, as [`Light::planes`] returns them.
+/// The planes of a light's region L, up to thirteen, in the order of [`Light::planes`].
+///
+/// ```
+/// use shadowfit::{Light, glam::DVec3};
+///
+/// let bulb = Light::point((0.0, 3.0, 0.0), 0.1, 20.0)?;
+/// let planes = bulb.planes();
+/// assert_eq!((planes.len(), planes.as_slice().len(), planes.is_empty()), (6, 6, false));
+/// assert!(planes.iter().all(|plane| plane.at(DVec3::ZERO) > 0.0));
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightPlanes {
     planes: [Plane; Light::MAX_PLANES],
@@ -391,7 +508,7 @@ pub struct LightPlanes {
 }
 
 impl LightPlanes {
-    /// The planes of what a shape at a position lights.
+    /// Adds the planes of the region of a shape.
     fn push_shape(&mut self, position: DVec3, near: f64, range: f64, shape: Shape) {
         match shape {
             Shape::Point => {
@@ -405,7 +522,7 @@ impl LightPlanes {
                 for side in [u, -u, v, -v] {
                     self.push(Plane::through(axis * sine - side * cosine, position));
                 }
-                // At the cone's side a point at distance `near` is only this far along the axis.
+                // A point on the cone's side at distance `near` is only this far along the axis.
                 self.push_slab(axis, position, near * cosine, range);
             }
             Shape::Pyramid { axis, up, tangents } => {
@@ -413,7 +530,7 @@ impl LightPlanes {
                     self.push(Plane::through(axis * tangent - side, position));
                     self.push(Plane::through(axis * tangent + side, position));
                 }
-                // At the pyramid's edges a point at distance `near` is only this far along the axis.
+                // A point on the pyramid's edge at distance `near` is only this far along the axis.
                 self.push_slab(axis, position, near / tangents.extend(1.0).length(), range);
             }
             Shape::Hemisphere { axis } => {
@@ -424,12 +541,12 @@ impl LightPlanes {
             }
             Shape::CubeFace { face, overlap, hemisphere } => {
                 let (axis, tangent) = (face.axis(), 1.0 + overlap);
-                // The next two axes of the world in turn, whichever way they point.
+                // The other two axes of the world, of either sign.
                 let (u, v) = (DVec3::new(axis.z, axis.x, axis.y), DVec3::new(axis.y, axis.z, axis.x));
                 for side in [u, -u, v, -v] {
                     self.push(Plane::through(axis * tangent - side, position));
                 }
-                // At the pyramid's edges a point at distance `near` is only this far along the axis.
+                // A point on the pyramid's edge at distance `near` is only this far along the axis.
                 self.push_slab(axis, position, near / DVec3::new(1.0, tangent, tangent).length(), range);
                 if let Some(axis) = hemisphere {
                     self.push(Plane::through(axis, position));
@@ -443,7 +560,7 @@ impl LightPlanes {
         self.len += 1;
     }
 
-    /// Distances along `axis` from `position` between `min` and `max`, either of which may be infinite.
+    /// Adds the planes that keep distances along `axis` from `position` between `min` and `max`; either may be infinite.
     fn push_slab(&mut self, axis: DVec3, position: DVec3, min: f64, max: f64) {
         let along = Plane::through(axis, position);
         if min.is_finite() {

@@ -1,4 +1,4 @@
-//! A light as it is stored: the same numbers, checked again when they are read.
+//! The serialised form of a light, checked when it is read.
 
 use super::{DVec3, InputError, Plane, Shape, Within};
 

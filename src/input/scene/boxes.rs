@@ -1,34 +1,35 @@
-//! Axis-aligned boxes, as renderers keep them for their objects, in single and in double precision.
+//! Axis-aligned bounding boxes in f32 and f64.
 
 use crate::error::{Expected, Hint, InputError, InputErrorKind, MAX_COORDINATE, check};
 use crate::input::numbers::vector;
 use glam::{DVec3, Vec3};
 
-/// An axis-aligned box in single precision, as renderers keep them for their objects.
+/// An axis-aligned bounding box in f32.
 ///
-/// One with its least coordinates at +∞, or beyond all that is allowed, and its largest at −∞ is empty, as engines mark it.
+/// It is empty with `min` above [`MAX_COORDINATE`] and `max` below its negative on all axes, such as [`Self::EMPTY`].
+#[doc(alias = "bounding box")]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Aabb {
-    /// The least coordinates.
+    /// The least coordinates, in world units.
     pub min: Vec3,
-    /// The largest coordinates.
+    /// The largest coordinates, in world units.
     pub max: Vec3,
 }
 
 impl Aabb {
-    /// A box without a point.
+    /// The empty box.
     pub const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
 
-    /// A box from its least and largest coordinates. Those in double precision are rounded outwards, so that the box holds all
-    /// that it should: at 6·10⁶ from the origin single precision has steps of half a unit.
+    /// A box from its least and largest coordinates. f64 coordinates are rounded outwards, so that the box loses nothing: at 6·10⁶
+    /// from the origin, f32 has steps of half a unit.
     ///
     /// ```
     /// use shadowfit::Aabb;
     ///
     /// let rounded = Aabb::new([6e6 + 0.1, 0.0, 0.0], [6e6 + 0.7, 1.0, 1.0]);
     /// assert_eq!((rounded.min.x, rounded.max.x), (6e6, 6e6 + 1.0));
-    /// assert_eq!(rounded.max.y, 1.0); // what single precision has stays
+    /// assert_eq!(rounded.max.y, 1.0); // f32 numbers stay as they are
     /// ```
     #[must_use]
     pub fn new<F: Into<f64>, G: Into<f64>>(min: impl Into<[F; 3]>, max: impl Into<[G; 3]>) -> Self {
@@ -41,23 +42,31 @@ impl Aabb {
     }
 }
 
-/// An axis-aligned box in double precision, for worlds that single precision is too coarse for.
+/// An axis-aligned bounding box in f64, for worlds too large for f32.
 ///
-/// One with its least coordinates at +∞, or beyond all that is allowed, and its largest at −∞ is empty, as engines mark it.
+/// It is empty with `min` above [`MAX_COORDINATE`] and `max` below its negative on all axes, such as [`Self::EMPTY`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DAabb {
-    /// The least coordinates.
+    /// The least coordinates, in world units.
     pub min: DVec3,
-    /// The largest coordinates.
+    /// The largest coordinates, in world units.
     pub max: DVec3,
 }
 
 impl DAabb {
-    /// A box without a point.
+    /// The empty box.
     pub const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
-    /// A box from its least and largest coordinates.
+    /// A box from its least and largest coordinates, as they are.
+    ///
+    /// ```
+    /// use shadowfit::{Aabb, input::DAabb};
+    ///
+    /// let precise = DAabb::new([6e6 + 0.1, 0.0, 0.0], [6e6 + 0.7, 1.0, 1.0]);
+    /// assert_eq!(precise.min.x, 6e6 + 0.1);
+    /// assert_eq!(DAabb::from(Aabb::from(precise)).max.x, 6e6 + 1.0); // rounded outwards on the way
+    /// ```
     #[must_use]
     pub fn new<F: Into<f64>, G: Into<f64>>(min: impl Into<[F; 3]>, max: impl Into<[G; 3]>) -> Self {
         Self { min: vector(min), max: vector(max) }
@@ -77,7 +86,7 @@ impl From<DAabb> for Aabb {
     }
 }
 
-/// The boxes that lists may be of: [`Aabb`] and [`DAabb`].
+/// The boxes of a scene's lists: [`Aabb`] or [`DAabb`].
 pub trait Bounding: Copy + Into<DAabb> + sealed::Listed {}
 
 impl Bounding for Aabb {}
@@ -103,7 +112,7 @@ mod sealed {
     }
 }
 
-/// A list of either kind.
+/// A list of boxes in f32 or f64.
 #[derive(Clone, Copy, Debug)]
 pub enum List<'a> {
     Single(&'a [Aabb]),
@@ -122,7 +131,7 @@ impl<'a> Boxes<'a> {
         Self { list: B::list(boxes), origin }
     }
 
-    /// The same, when each of them is sound.
+    /// The list, if every box is finite and in order.
     pub(crate) fn checked(self, field: &'static str) -> Result<Self, InputError> {
         let mut wrong = Ok(());
         self.for_each(|index, one| {
@@ -149,7 +158,7 @@ impl<'a> Boxes<'a> {
         (!is_empty(&one)).then(|| moved(one, self.origin))
     }
 
-    /// Passes each box that is not empty to `each`, in world space, with its index.
+    /// Calls `each` with the index and the world-space box of every box that is not empty.
     pub(crate) fn for_each(&self, mut each: impl FnMut(usize, DAabb)) {
         let mut pass = |index: usize, one: DAabb| {
             if !is_empty(&one) {
@@ -170,7 +179,7 @@ impl<'a> Boxes<'a> {
     }
 }
 
-/// A box moved by the origin of its list, outwards by what that rounds.
+/// A box moved by the origin of its list and rounded outwards.
 fn moved(one: DAabb, origin: DVec3) -> DAabb {
     if origin == DVec3::ZERO {
         return one;
@@ -178,7 +187,7 @@ fn moved(one: DAabb, origin: DVec3) -> DAabb {
     DAabb { min: (one.min + origin).map(f64::next_down), max: (one.max + origin).map(f64::next_up) }
 }
 
-/// Whether a box is marked as one without a point.
+/// Whether a box is marked as empty.
 fn is_empty(one: &DAabb) -> bool {
     one.min.cmpgt(DVec3::splat(MAX_COORDINATE)).all() && one.max.cmplt(DVec3::splat(-MAX_COORDINATE)).all()
 }
@@ -189,7 +198,7 @@ pub(crate) fn checked_box(min: DVec3, max: DVec3) -> Result<Option<(DVec3, DVec3
     if is_empty(&one) {
         return Ok(None);
     }
-    // As engines mark what has no bounds.
+    // Engines mark objects without bounds like this.
     let unbounded = min.cmplt(DVec3::splat(-MAX_COORDINATE)).all() && max.cmpgt(DVec3::splat(MAX_COORDINATE)).all();
     let hinted = |error: InputError| error.hinted(unbounded.then_some(Hint::Unbounded));
     let (min, max) = (check::point("min", min).map_err(hinted)?, check::point("max", max)?);
@@ -205,7 +214,7 @@ pub(crate) fn checked_box(min: DVec3, max: DVec3) -> Result<Option<(DVec3, DVec3
     Ok(Some((min, max)))
 }
 
-/// What [`checked_box`] finds wrong, of a box in a list.
+/// An error of [`checked_box`] as one about a box in a list.
 pub(crate) fn of_boxes(error: InputError, field: &'static str, index: usize) -> InputError {
     let component = match (error.field, error.component) {
         ("min", Some("x")) => Some("min.x"),

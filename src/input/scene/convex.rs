@@ -1,4 +1,4 @@
-//! A convex body as the bounds of a scene.
+//! A convex body as bounds of a scene.
 
 use super::boxes::checked_box;
 use crate::convex::{Plane, PlaneId, Polyhedron, box_planes};
@@ -6,16 +6,16 @@ use crate::error::{InputError, check};
 use crate::input::numbers::vector;
 use glam::DVec3;
 
-/// A convex body as the bounds of a scene: a box cut by planes.
+/// A convex body as bounds of a scene: a box cut by planes.
 ///
-/// Made once where the scene changes and borrowed by [`Scene::from_convex`](crate::Scene::from_convex) for every fit.
+/// Build it when the scene changes; [`Scene::from_convex`](crate::Scene::from_convex) borrows it for every fit.
 ///
 /// ```
 /// use shadowfit::{Empty, Light, Outcome, Scene, Settings, View, fit, focus::Plane, input::ConvexScene};
 ///
 /// let view = View::perspective((0.0, 1.7, 9.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 50.0)?;
 /// let sun = Light::directional((0.4, 1.0, 0.2))?;
-/// // A room with a sloping roof, and one of which a plane leaves nothing.
+/// // A room with a sloping roof, and one that a plane cuts off completely.
 /// let room = ConvexScene::new((-4.0, 0.0, -4.0), (4.0, 5.0, 4.0), &[Plane::from([-0.5, -1.0, 0.0, 5.0])])?;
 /// assert!(fit(&view, &sun, &Scene::from_convex(&room), &Settings::default()).map().is_some());
 /// let none = ConvexScene::new((-4.0, 0.0, -4.0), (4.0, 5.0, 4.0), &[Plane::from([0.0, 1.0, 0.0, -9.0])])?;
@@ -23,6 +23,7 @@ use glam::DVec3;
 /// assert_eq!(outcome, Outcome::Empty(Empty::NoReceivers));
 /// # Ok::<(), shadowfit::InputError>(())
 /// ```
+#[doc(alias = "k-DOP")]
 #[derive(Clone, Debug)]
 pub struct ConvexScene {
     pub(super) body: Polyhedron,
@@ -32,25 +33,24 @@ pub struct ConvexScene {
     max: DVec3,
 }
 
-/// What planes are called in an [`InputError`].
+/// The field of planes in an [`InputError`].
 const FIELD: &str = "planes";
 
 impl ConvexScene {
-    /// The most planes that may cut the box: enough for a turned box cut by a cone of twelve planes, and for the directions to
-    /// the edges of a cube ([`Self::around`]).
+    /// The largest number of planes that cut the box: enough for a rotated box cut by a cone of twelve planes, and for the
+    /// directions to the edges of a cube ([`Self::around`]).
     pub const MAX_CUTS: usize = 18;
     pub(crate) const MAX_PLANES: usize = 6 + Self::MAX_CUTS;
 
-    /// The part of a box inside all of `planes`, each of which keeps what lies on the side its normal points to. It may be
-    /// empty: then nothing is visible.
+    /// The part of a world-space box inside all of `planes`, inside ≥ 0. It may be empty.
     ///
-    /// Of more than [`Self::MAX_CUTS`] planes those that bound nothing of the body, because others cut deeper, are left out
-    /// without loss, and after them the last: the body is then larger than it might be, and holds all that it should.
+    /// Of more than [`Self::MAX_CUTS`] planes, redundant ones are left out first, then the last ones: the body is then larger than
+    /// the exact one, never smaller.
     ///
     /// # Errors
     ///
     /// Names `"min"` or `"max"` as [`Scene::from_box`](crate::Scene::from_box) does, and `"planes"`, with its index, when one is not
-    /// finite or without direction.
+    /// finite or has a zero normal.
     pub fn new<F: Into<f64>, G: Into<f64>>(
         min: impl Into<[F; 3]>,
         max: impl Into<[G; 3]>,
@@ -67,18 +67,18 @@ impl ConvexScene {
         })
     }
 
-    /// A box cut by more planes than there is room for, all of them checked.
+    /// A box cut by more planes than [`Self::MAX_CUTS`], all of them checked.
     fn cut_by_those_that_bound(min: DVec3, max: DVec3, planes: &[Plane]) -> Self {
         let extent = min.abs().max(max.abs());
         let mut body = Polyhedron::from_box(min, max);
-        // As many as have names.
+        // Planes beyond the largest name are tested below.
         let named = || (6..Polyhedron::MAX_PLANES as PlaneId).zip(planes);
         for (id, plane) in named() {
             if let Ok(plane) = plane.checked(FIELD) {
                 body.clip(&plane.loosened(extent), id);
             }
         }
-        // Those without a name may leave nothing.
+        // A plane without a name may cut all of the body off.
         if planes.iter().any(|plane| misses(plane, &body, extent)) {
             return Self::EMPTY;
         }
@@ -95,7 +95,7 @@ impl ConvexScene {
         max: DVec3::ZERO,
     };
 
-    /// A box cut by no more planes than there is room for, all of them checked.
+    /// A box cut by at most [`Self::MAX_CUTS`] planes, all of them checked.
     fn cut<'a>(min: DVec3, max: DVec3, planes: impl Iterator<Item = &'a Plane>) -> Self {
         let mut scene = Self { body: Polyhedron::from_box(min, max), plane_count: 6, ..Self::EMPTY };
         scene.planes[..6].copy_from_slice(&box_planes(min, max));
@@ -115,12 +115,24 @@ impl ConvexScene {
         scene
     }
 
-    /// The smallest body around points whose faces look along the 18 directions to the faces and edges of a cube: a
-    /// bound for a mesh that is tighter than its box.
+    /// The 18-DOP of points: the smallest body around them with faces towards the faces and edges of a cube, a tighter bound for
+    /// a mesh than its box. Around no points it is empty.
+    ///
+    /// ```
+    /// use shadowfit::{Focus, Light, Scene, View, input::ConvexScene};
+    ///
+    /// let octahedron = [[2.0, 0.0, 0.0], [-2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, -2.0, 0.0], [0.0, 0.0, 2.0], [0.0, 0.0, -2.0]];
+    /// let body = ConvexScene::around(octahedron)?;
+    /// let view = View::perspective((0.0, 0.0, 9.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 50.0)?;
+    /// let focus = Focus::new(&view, &Light::directional((0.4, 1.0, 0.2))?, &Scene::from_convex(&body));
+    /// assert!(focus.receiver_volume().volume() < 0.26 * 64.0); // a rhombic dodecahedron; the box has 64
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
-    /// Names `"points"`, with the index, when one is not finite or too large. Around no points the body is empty.
+    /// Names `"points"`, with the index, when one is not finite or too large.
+    #[doc(alias = "k-DOP")]
     pub fn around<F: Into<f64>, P: Into<[F; 3]>>(points: impl IntoIterator<Item = P>) -> Result<Self, InputError> {
         const FIELD: &str = "points";
         /// Half of the directions; the others are their opposites.

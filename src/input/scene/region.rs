@@ -1,10 +1,10 @@
-//! One convex bound, which bodies are clipped from.
+//! The convex region that bodies are clipped from.
 
 use super::ConvexScene;
 use crate::convex::{Plane, PlaneId, Polyhedron, box_planes};
 use glam::DVec3;
 
-/// One convex bound of casters or of receivers, which a body is clipped from.
+/// A convex bound of casters or of receivers; bodies are clipped from it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Region<'a> {
     Box { min: DVec3, max: DVec3 },
@@ -12,10 +12,10 @@ pub(crate) enum Region<'a> {
 }
 
 impl Region<'_> {
-    /// The planes of any region have names below this one.
+    /// Names of planes of any region are below this.
     pub(crate) const MAX_PLANES: PlaneId = ConvexScene::MAX_PLANES as PlaneId;
 
-    /// The planes of this one have the names below this.
+    /// Names of planes of this region are below this.
     pub(crate) const fn plane_count(&self) -> PlaneId {
         match self {
             Self::Box { .. } => 6,
@@ -23,7 +23,7 @@ impl Region<'_> {
         }
     }
 
-    /// Makes a body of the region, to clip.
+    /// Sets a body to the region, ready to be clipped.
     pub(crate) fn fill(&self, body: &mut Polyhedron) {
         match self {
             Self::Box { min, max } => body.set_box(*min, *max),
@@ -31,7 +31,7 @@ impl Region<'_> {
         }
     }
 
-    /// Passes each plane of the region and its name to `each`.
+    /// Calls `each` with every plane of the region and its name.
     pub(crate) fn for_each_plane(&self, mut each: impl FnMut(Plane, PlaneId)) {
         let mut pass = |planes: &[Plane]| (0..).zip(planes).for_each(|(id, plane)| each(*plane, id));
         match self {

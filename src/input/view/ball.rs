@@ -1,27 +1,24 @@
-//! A ball around a view, for maps whose texels stay where they are.
+//! A ball around a view: the room that a stabilised map leaves for it.
 
 use super::{Lens, View};
 use crate::math::bounds::{least, most};
 use glam::{DVec2, DVec3};
 
 impl View {
-    /// The middle and the radius of a ball around V, unless its far plane is infinite, for an image so many pixels high. The
-    /// radius comes of the frame, near and far alone, so that it has the same bits wherever the camera is.
+    /// The centre and radius of a ball around V for an image `image_height` pixels high; `None` for an infinite far plane.
     ///
-    /// It has the same bits too while the projection is moved about by less than a pixel, as temporal anti-aliasing does:
-    /// the frame counts as centred, and larger by a pixel to each side, while its middle is no farther than that from the
-    /// axis. A frame farther off axis counts with its middle at the nearest sixteenth of its half size, larger by
-    /// the half of that.
+    /// The radius depends on the frame, near and far alone, so that it has the same bits wherever the camera is, and under the
+    /// sub-pixel jitter of temporal anti-aliasing: [`Self::steady_frame`].
     ///
-    /// It is the smallest with its middle on the frame's own axis, and so the smallest of all where that is the view's. With m
-    /// the middle of a perspective frame, h half its size, s = |h|, q = h·|m| and A = 1 + |m|², the farthest corners at depth
-    /// d of the ball's middle at depth z lie at
+    /// It is the smallest ball with its centre on the line of sight through the frame's middle. With m the middle of a perspective
+    /// frame, h half its size, s = |h|, q = h·|m| and A = 1 + |m|², the squared distance of the farthest corners at depth d from a
+    /// centre at depth z is
     ///
     /// ```text
     ///     A (d − z)² + 2 q d |d − z| + s² d²
     /// ```
     ///
-    /// squared, which is the same for near and far where a linear equation in z says.
+    /// The depth z at which near and far corners are equally distant solves a linear equation.
     pub(crate) fn ball(&self, image_height: u32) -> Option<(DVec3, f64)> {
         if self.far.is_infinite() {
             return None;
@@ -29,7 +26,7 @@ impl View {
         let (near, far) = (self.near, self.far);
         let (middle, half) = self.steady_frame(image_height);
         let centre = middle;
-        // In a sheared image what lies so far along the axes is no farther than this from its middle.
+        // In a sheared image distances are larger than along orthogonal axes by at most this factor.
         let stretch = DVec2::splat(1.0 - self.lean.abs()).sqrt().x.recip();
         let (middle, half) = (middle * stretch, half * stretch);
         let (depth, squared) = match self.lens {
@@ -52,14 +49,15 @@ impl View {
         Some((self.at(centre, depth), DVec2::splat(squared).sqrt().x))
     }
 
-    /// The middle and half the size of a frame that holds the view's, and every other that a projection moved by less than a
-    /// pixel gives it.
+    /// The middle and half size of a frame that holds the view's own, the same for all projections that are jittered by less than
+    /// a pixel: a frame within a pixel of the axis counts as centred and a pixel larger to each side; one farther off axis has its
+    /// middle rounded to a sixteenth of its half size and grows by half of that.
     fn steady_frame(&self, image_height: u32) -> (DVec2, DVec2) {
-        /// Room for what roundings to f32 take from the frame, and for how far the axes of a view in f32 are from right angles.
+        /// Room for rounding of the frame to f32, and for axes in f32 that are not quite at right angles.
         const ROOM: f64 = 1.0 / 1_048_576.0;
         let middle = (self.frame_min + self.frame_max) * 0.5;
-        // The scale of a matrix in f32 does not change as its middle does. What is left of it here, by way of both sides,
-        // does by a rounding of f64, which is not enough for the quotient of two numbers of f32 to round to another one.
+        // Jitter leaves the scale of an f32 matrix alone. Computed from the sides it varies by a rounding of f64, too little for
+        // the quotient of two f32 numbers to round to another f32.
         let half = ((self.frame_max - self.frame_min) * 0.5).as_vec2().as_dvec2();
         let axis = match self.lens {
             Lens::Perspective => 1.0,

@@ -1,4 +1,4 @@
-//! Views by the matrices that renderers have.
+//! Views from the matrices of a renderer.
 
 use super::{Axes, Lens, View};
 use crate::error::{InputError, InputErrorKind, check};
@@ -10,15 +10,14 @@ use crate::math::bounds::most;
 use glam::DMat4;
 
 impl View {
-    /// A camera from the two matrices a renderer has: world → eye and eye → clip, for column vectors (`clip_from_eye ·
-    /// eye_from_world · x`).
+    /// A camera from its view matrix and projection matrix, world → eye and eye → clip, for column vectors: `clip_from_eye ·
+    /// eye_from_world · x`.
     ///
-    /// All that counts is the product, so that either may be anything that the other makes up for: mirrored, scaled
-    /// along its axes, sheared, turned in the image as swapchains of phones ask for, off axis, looking along either end
-    /// of z, with an infinite far plane, with an oblique near plane (Lengyel, *Oblique View Frustum Depth Projection and
-    /// Clipping*, 2005), and in any [`ClipSpace`], whose texture origin plays no part. Both may have been made in f32
-    /// and by way of inverses. Eye and corners are where the matrices have them, to the rounding of their entries. The
-    /// eye of an orthographic camera is the point that `eye_from_world` takes to the origin.
+    /// Only the product counts. It may be mirrored, scaled, sheared, rotated in the image (swapchains of phones), off axis, along
+    /// +z or −z, with an infinite far plane or an oblique near plane (Lengyel, *Oblique View Frustum Depth Projection and
+    /// Clipping*, 2005), in any [`ClipSpace`] (its texture origin plays no part), made in f32 and by way of inverses. Eye and
+    /// corners are those of the matrices, to the rounding of their entries. The eye of an orthographic camera is the point that
+    /// `eye_from_world` takes to the origin.
     ///
     /// ```
     /// use shadowfit::{ClipSpace, View, glam::{DMat4, DQuat, DVec3, Mat4, Quat, Vec3, Vec4}};
@@ -32,13 +31,16 @@ impl View {
     ///
     /// # Errors
     ///
-    /// - The matrix that is not finite, or that takes space to a plane or less ([`InputErrorKind::Singular`]); `"clip_from_eye"`
-    ///   where the product is neither perspective nor orthographic with a positive w ([`InputErrorKind::NotAProjection`]).
-    /// - The one that looks transposed ([`InputErrorKind::LooksTransposed`]): row vectors multiply from the other side.
-    /// - `"clip"`, where the depth range has near and far exchanged, and does not in the reversed convention
+    /// - The matrix that is not finite or is singular ([`InputErrorKind::Singular`]); `"clip_from_eye"` where the product is neither
+    ///   perspective nor orthographic with positive w ([`InputErrorKind::NotAProjection`]).
+    /// - The matrix that looks made for row vectors ([`InputErrorKind::LooksTransposed`]).
+    /// - `"clip"`, where near and far are exchanged in its depth range but not in the reversed one
     ///   ([`InputErrorKind::LooksReversed`]).
-    /// - `"near"`, `"far"`, `"frame"` or `"eye"` where what the matrices encode is out of order or out of range, and `"near"`
-    ///   where an oblique near plane leaves nothing of the view ([`InputErrorKind::OutsideView`]).
+    /// - `"near"`, `"far"`, `"frame"` or `"eye"` where the decoded value is out of order or out of range, and `"near"` where an
+    ///   oblique near plane cuts all of the view off ([`InputErrorKind::OutsideView`]).
+    #[doc(alias = "view_proj")]
+    #[doc(alias = "projection matrix")]
+    #[doc(alias = "oblique near plane")]
     pub fn from_matrices<A, B>(
         eye_from_world: impl IntoMatrix<A>,
         clip_from_eye: impl IntoMatrix<B>,
@@ -76,12 +78,11 @@ impl View {
         Self::framed(axes.eye, axes_found, frame.lens, [frame.min * unit, frame.max * unit], depths)
     }
 
-    /// A camera from the one matrix that takes world space to clip space, `clip_from_eye · eye_from_world`: all that map
-    /// libraries and some engines hand out.
+    /// A camera from its view-projection matrix, world → clip: `clip_from_eye · eye_from_world`.
     ///
-    /// It may be all that [`Self::from_matrices`] takes. Eye and corners are where the matrix has them, to the rounding of
-    /// its entries; a matrix whose entries are all numbers of f32 counts as rounded to f32. With f32 that is a unit in
-    /// the last place of the eye's own coordinates, so that far from the origin the two matrices, or one in f64, say more.
+    /// Takes every product that [`Self::from_matrices`] takes. Eye and corners are those of the matrix, to the rounding of its
+    /// entries; where all entries are f32 numbers, that is f32 rounding, of the size of a unit in the last place of the eye's
+    /// coordinates. Far from the origin prefer the two matrices, or one in f64.
     ///
     /// An orthographic matrix has no eye: [`View::eye`] is then the middle of its near plane.
     ///
@@ -96,13 +97,15 @@ impl View {
     ///
     /// # Errors
     ///
-    /// - `"clip_from_world"` where it is not finite, takes space to a plane or less ([`InputErrorKind::Singular`]), or is
-    ///   neither perspective nor orthographic with a positive w ([`InputErrorKind::NotAProjection`]); or looks transposed
+    /// - `"clip_from_world"` where it is not finite, is singular ([`InputErrorKind::Singular`]), is neither perspective nor
+    ///   orthographic with positive w ([`InputErrorKind::NotAProjection`]), or looks made for row vectors
     ///   ([`InputErrorKind::LooksTransposed`]).
-    /// - `"clip"`, where the depth range has near and far exchanged, and does not in the reversed convention
+    /// - `"clip"`, where near and far are exchanged in its depth range but not in the reversed one
     ///   ([`InputErrorKind::LooksReversed`]).
-    /// - `"near"`, `"far"`, `"frame"` or `"eye"` where what the matrix encodes is out of order or out of range, and `"near"`
-    ///   where an oblique near plane leaves nothing of the view ([`InputErrorKind::OutsideView`]).
+    /// - `"near"`, `"far"`, `"frame"` or `"eye"` where the decoded value is out of order or out of range, and `"near"` where an
+    ///   oblique near plane cuts all of the view off ([`InputErrorKind::OutsideView`]).
+    #[doc(alias = "view_proj")]
+    #[doc(alias = "view-projection matrix")]
     pub fn from_clip_from_world<C>(
         clip_from_world: impl IntoMatrix<C>,
         clip: ClipSpace,
@@ -115,7 +118,7 @@ impl View {
         };
         let view = of(&matrix);
         let is_upright = |view: &Result<Self, InputError>| view.is_ok_and(|view| view.is_upright());
-        // The other way round it may be a camera all the same, of an odd shape, and its depth in odd units.
+        // A transposed matrix may decode as a camera too, with a sheared image, oblique planes or depth in odd units.
         if !is_upright(&view) && !decode::has_depth_in_units(&matrix) {
             let transposed = matrix.transpose();
             if decode::has_depth_in_units(&transposed) && is_upright(&of(&transposed)) {
@@ -125,13 +128,13 @@ impl View {
         view
     }
 
-    /// Whether its image is not sheared and no plane oblique.
+    /// Whether the image is not sheared and no plane is oblique.
     fn is_upright(&self) -> bool {
         self.lean == 0.0 && self.near_cut.is_none() && self.far_cut.is_none()
     }
 }
 
-/// A view by its matrix, or, where near and far are exchanged there and not in the reversed convention, an error that says so.
+/// A decoded view, or, where near and far are exchanged and are not in the reversed convention, an error that says so.
 fn or_reversed(clip: ClipSpace, of: impl Fn(ClipSpace) -> Result<View, InputError>) -> Result<View, InputError> {
     of(clip).or_else(|error| {
         let is_depth = matches!(error.field, "near" | "far");

@@ -1,7 +1,7 @@
-//! The view V: the camera's frustum, whatever convention its matrices came in.
+//! The view V: the camera's frustum, in one form for all conventions.
 
 use crate::convex::{Plane, matrix_from_rows};
-use crate::error::{Hint, InputError, InputErrorKind, MIN_DISTANCE, check};
+use crate::error::{Expected, Hint, InputError, InputErrorKind, MAX_COORDINATE, MIN_DISTANCE, check};
 use crate::input::clip_space::DepthRange;
 use crate::input::numbers::vector;
 use crate::input::view::frustum::steps;
@@ -21,29 +21,44 @@ mod tangents;
 pub use planes::FrustumPlanes;
 pub use tangents::Tangents;
 
-/// Whether lines of sight meet in the eye or run side by side.
+/// The kind of a projection: perspective or orthographic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Lens {
     /// Lines of sight meet in the eye; the frame is given by slopes, offset per unit of depth.
     Perspective,
     /// Lines of sight are parallel; the frame is given by offsets in world units.
+    #[doc(alias = "parallel projection")]
     Orthographic,
 }
 
-/// A camera: an eye, three axes, a frame and a depth range.
+/// The view V, a camera's frustum: an eye, three axes, a frame and a depth range.
 ///
-/// Every projection matrix the constructors accept is brought to this one form, so that equivalent cameras, whatever
-/// their handedness, their direction of z or y and their clip volume, give the same view.
+/// Every projection is brought to this one form: cameras that see the same give the same view, whatever the handedness, the
+/// direction of z or y and the clip volume of their matrices.
+///
+/// ```
+/// use shadowfit::{View, glam::DVec3, input::Lens};
+///
+/// let view = View::perspective((0.0, 1.7, 0.0), (0.0, 0.0, -2.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.5, 80.0)?;
+/// assert_eq!((view.eye(), view.lens()), (DVec3::new(0.0, 1.7, 0.0), Lens::Perspective));
+/// assert_eq!((view.right(), view.up(), view.forward()), (DVec3::X, DVec3::Y, DVec3::NEG_Z)); // unit length
+/// assert_eq!((view.near(), view.far()), (0.5, 80.0));
+/// assert_eq!(view.depth(DVec3::new(3.0, 9.0, -10.0)), 10.0); // along forward, from the eye
+/// assert!((view.half_height(10.0) - 10.0 * 0.5_f64.tan()).abs() < 1e-12);
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
 ///
 /// # Guarantees
 ///
-/// `right`, `up` and `forward` are unit length, `right` and `up` at right angles to `forward`, and, unless the image is
-/// sheared, to each other (right- or left-handed); the frame is not empty; `near < far`; a perspective view has
-/// `near > 0` and may have `far = ∞`.
+/// `right`, `up` and `forward` are unit vectors, `right` and `up` at right angles to `forward` and, unless the image is sheared,
+/// to each other (right- or left-handed). The frame is not empty, and `near < far`. A perspective view has `near > 0` and may have
+/// `far = ∞`.
 ///
-/// A near or far plane may be oblique, as that of a mirror's camera is. It cuts V further ([`View::planes`]); `near` and
-/// `far` are then the depths between which V lies.
+/// A near or far plane may be oblique, as for mirrors and portals. It cuts V further ([`View::planes`]); `near` and `far` are then
+/// the least and the largest depth of V.
+#[doc(alias = "camera")]
+#[doc(alias = "frustum")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "stored::View"))]
 pub struct View {
@@ -60,22 +75,31 @@ pub struct View {
     pub(crate) near: f64,
     #[cfg_attr(feature = "serde", serde(with = "crate::math::infinity"))]
     pub(crate) far: f64,
-    /// Where a plane is oblique, what cuts V beside the plane across the view.
+    /// The oblique planes, which cut V besides the planes across the view.
     pub(crate) near_cut: Option<Plane>,
     pub(crate) far_cut: Option<Plane>,
 }
 
 impl View {
-    /// A perspective camera with a symmetric frame.
+    /// A perspective camera with a symmetric frame, from its pose and lens.
     ///
-    /// `forward` and `up` need not be unit length nor at right angles; `fov_y` is the full vertical field of view in
-    /// radians, `aspect` is width over height, `near` and `far` are depths along `forward` in world units; `far` may be
-    /// infinite.
+    /// `eye` is a position and `forward` and `up` are directions in world space; the directions need neither unit length nor a
+    /// right angle. `fov_y` is the full vertical field of view in radians, `aspect` is width over height, `near` and `far` are
+    /// depths along `forward` in world units. `far` may be infinite.
+    ///
+    /// ```
+    /// use shadowfit::View;
+    ///
+    /// let camera = |fov_y: f64| View::perspective([0.0, 1.7, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0], fov_y, 1.6, 0.1, 500.0);
+    /// assert_eq!(camera(60_f64.to_radians())?.far(), 500.0);
+    /// assert_eq!(camera(60.0).unwrap_err().to_string(), "fov_y must lie in (0, π) radians; got 60. Degrees?");
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
-    /// Names the field that is not finite, without direction, parallel to the other direction, outside (0, π), not
-    /// positive, or out of order.
+    /// Names the field that is not finite, the zero vector, parallel to the other direction, outside (0, π), not positive, or out
+    /// of order.
     pub fn perspective<E: Into<f64>, F: Into<f64>, U: Into<f64>>(
         eye: impl Into<[E; 3]>,
         forward: impl Into<[F; 3]>,
@@ -86,26 +110,38 @@ impl View {
         far: f64,
     ) -> Result<Self, InputError> {
         let fov_y = check::angle("fov_y", fov_y, 0.0, core::f64::consts::PI).map_err(|error| {
-            // A lens of more than a turn is one of that many degrees.
+            // More than a full turn can only be degrees.
             let degrees = fov_y > 2.0 * core::f64::consts::PI && fov_y <= 180.0;
             error.hinted(degrees.then_some(Hint::Degrees))
         })?;
         let (sine, cosine) = angle::sine_cosine(0.5 * fov_y);
-        let slope = check::distance("fov_y", sine / cosine)?;
-        let slopes = DVec2::new(check::distance("aspect", slope * check::distance("aspect", aspect)?)?, slope);
+        let slope = check::distance("fov_y", sine / cosine).map_err(|error| {
+            let (least, most) = (2.0 * MIN_DISTANCE, core::f64::consts::PI - 2.0 * MIN_DISTANCE);
+            error.got(fov_y).expected(Expected::Within { least, most })
+        })?;
+        let slopes = DVec2::new(scaled("aspect", aspect, slope)?, slope);
         let axes = Axes::looking(vector(forward), vector(up))?;
         Self::framed(vector(eye), axes, Lens::Perspective, [-slopes, slopes], [near, far])
     }
 
-    /// An orthographic camera with a symmetric frame.
+    /// An orthographic camera with a symmetric frame, from its pose and size.
     ///
-    /// `half_height` is half the height of what is seen, in world units; `aspect` is width over height; `near` and
-    /// `far` are depths along `forward` from `eye`, either sign, in world units.
+    /// `half_height` is half the height of the image in world units, `aspect` is width over height, `near` and `far` are depths
+    /// along `forward` from `eye` in world units, of either sign.
+    ///
+    /// ```
+    /// use shadowfit::{View, glam::DVec3};
+    ///
+    /// // A map view from above, 40 units high and 64 wide.
+    /// let view = View::orthographic((0.0, 50.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0), 20.0, 1.6, 0.0, 60.0)?;
+    /// assert_eq!((view.half_height(10.0), view.half_height(50.0)), (20.0, 20.0));
+    /// assert_eq!(view.corners().expect("a finite far plane")[0], DVec3::new(-32.0, 50.0, 20.0));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
-    /// Names the field that is not finite, without direction, parallel to the other direction, not positive, or out of
-    /// order.
+    /// Names the field that is not finite, the zero vector, parallel to the other direction, not positive, or out of order.
     pub fn orthographic<E: Into<f64>, F: Into<f64>, U: Into<f64>>(
         eye: impl Into<[E; 3]>,
         forward: impl Into<[F; 3]>,
@@ -116,16 +152,16 @@ impl View {
         far: f64,
     ) -> Result<Self, InputError> {
         let height = check::distance("half_height", half_height)?;
-        let half = DVec2::new(check::distance("aspect", height * check::distance("aspect", aspect)?)?, height);
+        let half = DVec2::new(scaled("aspect", aspect, height)?, height);
         let axes = Axes::looking(vector(forward), vector(up))?;
         Self::framed(vector(eye), axes, Lens::Orthographic, [-half, half], [near, far])
     }
 
-    /// A perspective camera by the tangents of its four half angles, as headset runtimes give them: `near` and `far` stay
-    /// what they are, where a matrix keeps no more of them than its numbers have room for.
+    /// A perspective camera from the tangents of its four half angles, as headset runtimes give them. `near` and `far` are exact,
+    /// where an f32 projection matrix rounds them.
     ///
-    /// `forward` and `up` are those of the pose, of any length, in world space: with a unit quaternion, the images of −z
-    /// and y in OpenXR and OpenVR. `near` and `far` are depths along `forward` in world units; `far` may be infinite.
+    /// `forward` and `up` are directions in world space, of any length: in OpenXR and OpenVR the pose's quaternion applied to −z
+    /// and to y. `near` and `far` are depths along `forward` in world units; `far` may be infinite.
     ///
     /// ```
     /// use shadowfit::{View, input::Tangents};
@@ -139,8 +175,10 @@ impl View {
     ///
     /// # Errors
     ///
-    /// Names the field that is not finite, without direction, parallel to the other direction, not positive, or out of
-    /// order; `"frame"` where left is not less than right or bottom than top.
+    /// Names the field that is not finite, the zero vector, parallel to the other direction, not positive, or out of order;
+    /// `"frame"` where left is not less than right, or bottom not less than top.
+    #[doc(alias = "XrFovf")]
+    #[doc(alias = "OpenXR")]
     pub fn from_tangents<E: Into<f64>, F: Into<f64>, U: Into<f64>>(
         eye: impl Into<[E; 3]>,
         forward: impl Into<[F; 3]>,
@@ -155,8 +193,8 @@ impl View {
         Self::framed(vector(eye), axes, Lens::Perspective, frame, [near, far])
     }
 
-    /// The part of the view between two depths: what a cascade covers, or what a read-back of the depth buffer found to be
-    /// visible (PSM §6). Depths beyond the view's own are drawn in to those.
+    /// The part of the view between two depths, in world units along [`Self::forward`]: the range of a cascade, or that of a
+    /// depth buffer read back (Stamminger & Drettakis 2002, §6). Depths outside of the view's own range are clamped to it.
     ///
     /// ```
     /// use shadowfit::View;
@@ -169,8 +207,11 @@ impl View {
     ///
     /// # Errors
     ///
-    /// Names `"near"` or `"far"` when it is NaN, `"far"` when it is no more than `near`, and the one that lies beyond the
-    /// other end of the view when the range misses it ([`InputErrorKind::OutsideView`]).
+    /// Names `"near"` or `"far"` when it is NaN, `"far"` when it is no more than `near`, and the one that lies beyond the other
+    /// end of the view when the range misses the view ([`InputErrorKind::OutsideView`]).
+    #[doc(alias = "SDSM")]
+    #[doc(alias = "sample distribution shadow maps")]
+    #[doc(alias = "maximum shadow distance")]
     pub fn narrowed(&self, near: f64, far: f64) -> Result<Self, InputError> {
         for (field, depth) in [("near", near), ("far", far)] {
             if depth.is_nan() {
@@ -179,10 +220,12 @@ impl View {
         }
         check::above("far", far, "near", near)?;
         if near >= self.far {
-            return Err(InputError::new("near", InputErrorKind::OutsideView).got(near));
+            let expected = Expected::Below { field: "the view's far", value: self.far };
+            return Err(InputError::new("near", InputErrorKind::OutsideView).got(near).expected(expected));
         }
         if far <= self.near {
-            return Err(InputError::new("far", InputErrorKind::OutsideView).got(far));
+            let expected = Expected::Above { field: "the view's near", value: self.near };
+            return Err(InputError::new("far", InputErrorKind::OutsideView).got(far).expected(expected));
         }
         Self { near: most(near, self.near), far: least(far, self.far), ..*self }.checked()
     }
@@ -199,19 +242,26 @@ impl View {
         Self { eye, right, up, forward, lean, lens, frame_min, frame_max, near, far, near_cut, far_cut }.checked()
     }
 
-    /// The view, if its numbers are what one has.
+    /// The view, if its numbers are in range and in order.
     pub(crate) fn checked(self) -> Result<Self, InputError> {
         let eye = check::point("eye", self.eye)?;
-        let corner = |corner: DVec2| check::point("frame", corner.extend(0.0)).map(DVec3::truncate);
-        let (frame_min, frame_max) = (corner(self.frame_min)?, corner(self.frame_max)?);
-        if !(frame_min.x < frame_max.x && frame_min.y < frame_max.y) {
-            return check::fail("frame", InputErrorKind::OutOfOrder);
-        }
+        let of_frame = |side: &'static str| move |error: InputError| error.of_component(side);
+        let corner = |corner: DVec2, [x, y]: [&'static str; 2]| -> Result<DVec2, InputError> {
+            let x = check::coordinate("frame", corner.x).map_err(of_frame(x))?;
+            Ok(DVec2::new(x, check::coordinate("frame", corner.y).map_err(of_frame(y))?))
+        };
+        let (frame_min, frame_max) =
+            (corner(self.frame_min, ["left", "bottom"])?, corner(self.frame_max, ["right", "top"])?);
+        check::above("frame", frame_max.x, "left", frame_min.x).map_err(of_frame("right"))?;
+        check::above("frame", frame_max.y, "bottom", frame_min.y).map_err(of_frame("top"))?;
         let size = frame_max - frame_min;
-        check::distance("frame", size.x).and(check::distance("frame", size.y))?;
+        check::distance("frame", size.x).map_err(of_frame("width"))?;
+        check::distance("frame", size.y).map_err(of_frame("height"))?;
         let (near, far) = match self.lens {
             Lens::Perspective => {
-                (check::distance("near", self.near)?, check::distance_or_infinity("far", self.far)?)
+                let unlimited = (self.far == 0.0).then_some(Hint::NoLimit);
+                let far = check::distance_or_infinity("far", self.far);
+                (check::distance("near", self.near)?, far.map_err(|error| error.hinted(unlimited))?)
             }
             Lens::Orthographic => (check::coordinate("near", self.near)?, check::coordinate("far", self.far)?),
         };
@@ -219,15 +269,14 @@ impl View {
         Ok(Self { eye, frame_min, frame_max, near, far, ..self })
     }
 
-    /// Where the camera is, in world space.
+    /// The camera's position, in world space.
     #[must_use]
     pub const fn eye(&self) -> DVec3 {
         self.eye
     }
 
-    /// The unit axis to the right of the image, in world space, at right angles to its left and right edges. The
-    /// constructors that take directions take the world to be right-handed; in a left-handed one theirs points to the left,
-    /// which changes no result.
+    /// The unit axis to the right of the image, in world space, at right angles to its left and right edges. Constructors from
+    /// directions assume a right-handed world; in a left-handed one the axis points to the left, which changes no result.
     #[must_use]
     pub const fn right(&self) -> DVec3 {
         self.right
@@ -239,13 +288,13 @@ impl View {
         self.up
     }
 
-    /// The unit axis that the camera looks along, in world space.
+    /// The unit axis of the view, in world space: the direction of increasing depth.
     #[must_use]
     pub const fn forward(&self) -> DVec3 {
         self.forward
     }
 
-    /// Perspective or orthographic.
+    /// The kind of projection: perspective or orthographic.
     #[must_use]
     pub const fn lens(&self) -> Lens {
         self.lens
@@ -263,26 +312,25 @@ impl View {
         self.far
     }
 
-    /// Depth of a point before the eye, in world units.
+    /// The depth of a world-space point before the eye, along [`Self::forward`], in world units.
     #[must_use]
     pub fn depth(&self, point: DVec3) -> f64 {
         self.forward.dot(point - self.eye)
     }
 
-    /// The depth before the eye, in world units, that a value in the camera's own depth buffer stands for: what a renderer
-    /// that reads back the nearest and the farthest of what is visible (PSM §6) turns into numbers for
-    /// [`Self::narrowed`], widened by a few steps of the buffer's format.
+    /// The depth before the eye, in world units, of a value in the camera's own depth buffer. With the least and the largest
+    /// value read back, widened by a few steps of the buffer's format, [`Self::narrowed`] fits the view to visible receivers
+    /// (Stamminger & Drettakis 2002, §6).
     ///
-    /// `stored` runs from 0 to 1, as depth buffers do on every API, and `range` is that of the camera's clip space; values
-    /// outside are taken for the end they are beyond, NaN for 0. With an oblique plane depth is no function of what is
-    /// stored alone, and this is that of a buffer drawn without one. What is cleared to the far end and never drawn to has the depth of
-    /// the far plane, infinite where that is.
+    /// `stored` lies in [0, 1], as in depth buffers on every API, and is clamped to it (NaN to 0); `range` is that of the camera's
+    /// clip space. Pixels cleared to the far end have the depth of the far plane, which may be infinite. Oblique planes are not
+    /// taken into account.
     ///
     /// ```
     /// use shadowfit::{View, input::DepthRange};
     ///
     /// let view = View::perspective((0.0, 1.7, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, f64::INFINITY)?;
-    /// // Reversed, without end: the buffer holds near / depth.
+    /// // Reversed depth with an infinite far plane: the buffer holds near / depth.
     /// let (nearest, farthest) = (0.05, 0.000_4);
     /// let depth = |stored| view.depth_of(stored, DepthRange::ZeroToOneReversed);
     /// let narrowed = view.narrowed(depth(nearest) * 0.999, depth(farthest) * 1.001)?;
@@ -294,13 +342,13 @@ impl View {
         let stored = if stored > 0.0 { stored.min(1.0) } else { 0.0 };
         let (to_near, to_far) = if range.is_reversed() { (stored, 1.0 - stored) } else { (1.0 - stored, stored) };
         match self.lens {
-            // 1/depth is what is stored, between 1/near and 1/far.
+            // The buffer is linear in 1/depth, between 1/near and 1/far.
             Lens::Perspective => self.near / (to_near + to_far * (self.near / self.far)),
             Lens::Orthographic => self.near * to_near + self.far * to_far,
         }
     }
 
-    /// What a place in the image, (0, 0) to (1, 1), shows at depth 0, and the step from there to depth 1.
+    /// The line of sight through a place in the image, (0, 0) to (1, 1): its point at depth 0 and the step to depth 1.
     pub(crate) fn ray(&self, place: DVec2) -> (DVec3, DVec3) {
         let place = self.frame_min + (self.frame_max - self.frame_min) * place;
         let [right, up] = self.steps();
@@ -311,12 +359,12 @@ impl View {
         }
     }
 
-    /// What the middle of the image shows at a depth.
+    /// The point at a depth on the line of sight through the middle of the image.
     pub(crate) fn centre_at(&self, depth: f64) -> DVec3 {
         self.at((self.frame_min + self.frame_max) * 0.5, depth)
     }
 
-    /// What a point of the frame shows at a depth.
+    /// The point at a depth on the line of sight through a point of the frame.
     fn at(&self, point: DVec2, depth: f64) -> DVec3 {
         let point = match self.lens {
             Lens::Perspective => point * depth,
@@ -326,7 +374,7 @@ impl View {
         self.eye + self.forward * depth + right * point.x + up * point.y
     }
 
-    /// Half the height, in world units, of what the image shows at a depth.
+    /// Half the height of the frustum at a depth, both in world units.
     #[must_use]
     pub fn half_height(&self, depth: f64) -> f64 {
         let half = 0.5 * (self.frame_max.y - self.frame_min.y);
@@ -336,14 +384,24 @@ impl View {
         }
     }
 
-    /// The side of a pixel at a point, across the view axis, in world units, of an image so many pixels high.
+    /// The side of a pixel at a point, across the view axis, in world units, for an image `image_height` pixels high.
     pub(crate) fn pixel_size(&self, point: DVec3, image_height: u32) -> f64 {
         2.0 * self.half_height(self.depth(point)) / f64::from(image_height)
     }
 
-    /// The corners, in world space, of the frustum between the depths [`Self::near`] and [`Self::far`]: near then far, each
-    /// left-bottom, right-bottom, left-top, right-top; `None` when the far plane is infinite. They are V's own unless
-    /// a plane is oblique, which cuts V further.
+    /// The eight corners of the frustum between the depths [`Self::near`] and [`Self::far`], in world space: near then far, each
+    /// left-bottom, right-bottom, left-top, right-top. `None` for an infinite far plane. An oblique plane cuts V further.
+    ///
+    /// ```
+    /// use shadowfit::View;
+    ///
+    /// let camera = |far| View::perspective((0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.5, far);
+    /// let corners = camera(80.0)?.corners().expect("a finite far plane");
+    /// assert_eq!((corners[0].z, corners[7].z), (-0.5, -80.0));
+    /// assert!(corners[0].x < 0.0 && corners[0].y < 0.0 && corners[7].x > 0.0 && corners[7].y > 0.0);
+    /// assert_eq!(camera(f64::INFINITY)?.corners(), None);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn corners(&self) -> Option<[DVec3; 8]> {
         self.far.is_finite().then(|| {
@@ -361,20 +419,31 @@ impl View {
         })
     }
 
-    /// The steps that go along one side of the frame by 1, in world space.
+    /// The world-space steps that go by 1 along one side of the frame and by 0 along the other.
     fn steps(&self) -> [DVec3; 2] {
         steps(self.right, self.up, self.lean)
     }
 
-    /// The camera's 4×4, world → clip, with x, y and z in [−1, 1] whatever convention the view came in; z runs from the depth
-    /// [`Self::near`] to [`Self::far`], whether or not a plane is oblique.
+    /// The camera's 4×4 matrix, world → clip, with x, y and z in [−1, 1] whatever convention the view came in. z runs from the
+    /// depth [`Self::near`] to [`Self::far`], also where a plane is oblique.
+    ///
+    /// ```
+    /// use shadowfit::{View, glam::DVec3};
+    ///
+    /// let view = View::perspective((0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.5, 80.0)?;
+    /// let clip_from_world = view.clip_from_world();
+    /// assert!((clip_from_world.project_point3(DVec3::new(0.0, 0.0, -0.5)).z + 1.0).abs() < 1e-12);
+    /// assert!((clip_from_world.project_point3(DVec3::new(0.0, 0.0, -80.0)).z - 1.0).abs() < 1e-12);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
+    #[doc(alias = "view_proj")]
     #[must_use]
     pub fn clip_from_world(&self) -> DMat4 {
         matrix_from_rows(self.rows(self.near, self.far))
     }
 
-    /// The rows C₀ C₁ C₂ C₃ of the camera's matrix (`docs/design.md`, section 2) with z running from −1 at depth `near` to 1 at
-    /// depth `far`.
+    /// The rows C₀ C₁ C₂ C₃ of the camera's matrix (`docs/design.md`, section 2), with z from −1 at depth `near` to 1 at depth
+    /// `far`.
     pub(crate) fn rows(&self, near: f64, far: f64) -> [Plane; 4] {
         let centre = (self.frame_min + self.frame_max) * 0.5;
         let half = (self.frame_max - self.frame_min) * 0.5;
@@ -383,7 +452,7 @@ impl View {
             |axis: DVec3, centre: f64, half: f64| (Plane::through(axis, self.eye) - unit * centre) * half.recip();
         let depth = self.depth_row();
         let z = match self.lens {
-            // Divided through by `far`, so that an infinite one is no special case.
+            // Divided by `far`, so that an infinite far plane is no special case.
             Lens::Perspective => {
                 let ratio = near / far;
                 (depth * (1.0 + ratio) - Plane::ONE * (2.0 * near)) * (1.0 - ratio).recip()
@@ -393,8 +462,7 @@ impl View {
         [row(self.right, centre.x, half.x), row(self.up, centre.y, half.y), z, unit]
     }
 
-    /// A view from the same eye along the same axis, of lines of sight side by side, between depths: in its image, half as
-    /// high as that range is deep, everything has the same size.
+    /// An orthographic view from the same eye along the same axis, between depths; its half height is half of that range.
     pub(crate) fn without_perspective(&self, depths: &Interval) -> Self {
         let half = DVec2::splat(most(0.5 * (depths.max - depths.min), MIN_DISTANCE));
         Self {
@@ -409,11 +477,19 @@ impl View {
         }
     }
 
-    /// The same view with the eye moved back along the view axis by `shift` world units: depths grow by as much, the
-    /// frame keeps its slopes.
+    /// The same view with the eye moved back along the view axis by `shift` world units: depths grow by `shift`, the frame keeps
+    /// its slopes.
     pub(crate) fn moved_back(&self, shift: f64) -> Self {
         Self { eye: self.eye - self.forward * shift, ..*self }
     }
+}
+
+/// A distance `factor` times as large as an argument, both in the range of distances.
+fn scaled(field: &'static str, value: f64, factor: f64) -> Result<f64, InputError> {
+    check::distance(field, factor * check::distance(field, value)?).map_err(|error| {
+        let (least, most) = (MIN_DISTANCE / factor, MAX_COORDINATE / factor);
+        error.got(value).expected(Expected::Within { least, most })
+    })
 }
 
 /// The axes of the image, orthonormal.
@@ -430,7 +506,9 @@ impl Axes {
         let right = forward.cross(up);
         // Below this the sine of the angle is mostly rounding.
         if right.length() < 1e-7 {
-            return check::fail("up", InputErrorKind::Parallel);
+            let error = InputError::new("up", InputErrorKind::Parallel);
+            let error = error.expected(Expected::NotParallel { field: "forward" });
+            return Err(error.hinted(Some(Hint::StraightUpOrDown)));
         }
         let right = right.normalize();
         Ok(Self { right, up: right.cross(forward), forward })

@@ -5,15 +5,15 @@ use crate::convex::Plane;
 use crate::math::list::list;
 
 impl View {
-    /// The planes of V in world space, inside ≥ 0: left, right, bottom, top, near, then the near and the far plane that are
-    /// oblique, and, unless it is infinite, far. The sides are those of the image, near and far across
-    /// [`View::forward`].
+    /// The planes of V in world space, inside ≥ 0: left, right, bottom, top, near, then oblique near and far planes if any, then
+    /// far unless it is infinite. Near and far are across [`View::forward`].
     ///
     /// ```
     /// use shadowfit::{View, glam::DVec3};
     ///
     /// let view = View::perspective((0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.5, 80.0)?;
     /// assert_eq!(view.planes().len(), 6);
+    /// assert_eq!(view.planes()[4].at(DVec3::new(0.0, 0.0, -2.0)), 1.5); // near, with a unit normal
     /// assert!(view.planes().iter().all(|plane| plane.at(DVec3::new(0.1, 0.2, -5.0)) > 0.0));
     /// # Ok::<(), shadowfit::InputError>(())
     /// ```
@@ -22,7 +22,7 @@ impl View {
         let (depth, one) = (self.depth_row(), self.frame_unit());
         let (x, y) = (Plane::through(self.right, self.eye), Plane::through(self.up, self.eye));
         let near = depth - Plane::ONE * self.near;
-        // An infinite one is the plane at infinity. Any multiple would do: this one scales with the scene as others do.
+        // An infinite far plane is the plane at infinity, in a multiple that scales with the scene as the other planes do.
         let far = if self.far.is_finite() { Plane::ONE * self.far - depth } else { Plane::ONE * self.near };
         let mut planes = [
             x - one * self.frame_min.x,
@@ -47,8 +47,7 @@ impl View {
         Plane::through(self.forward, self.eye)
     }
 
-    /// What the frame's numbers are multiples of: depth for slopes, 1 for offsets. It is also the row C₃ of the
-    /// camera's matrix.
+    /// The unit of the frame: depth for slopes, 1 for offsets. It is also the row C₃ of the camera's matrix.
     pub(super) fn frame_unit(&self) -> Plane {
         match self.lens {
             Lens::Perspective => self.depth_row(),
@@ -57,22 +56,32 @@ impl View {
     }
 }
 
-/// Up to eight planes, as [`View::planes`] returns them.
+/// The planes of a view, up to eight, in the order of [`View::planes`].
+///
+/// ```
+/// use shadowfit::View;
+///
+/// let view = View::perspective((0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.5, f64::INFINITY)?;
+/// let planes = view.planes();
+/// assert_eq!((planes.len(), planes.as_slice().len(), planes.is_empty()), (5, 5, false)); // no far plane
+/// assert!(planes.iter().all(|plane| plane.at(view.eye() + view.forward()) > 0.0));
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrustumPlanes {
     planes: [Plane; 8],
-    /// With the plane at infinity, and without.
+    /// The number of planes with the plane at infinity, and without.
     count: usize,
     len: usize,
 }
 
 impl FrustumPlanes {
-    /// All of them, with the plane at infinity at the end for an infinite far plane.
+    /// All planes; an infinite far plane is the plane at infinity, at the end.
     pub(crate) fn with_infinity(&self) -> &[Plane] {
         &self.planes[..self.count]
     }
 
-    /// The most there may be.
+    /// The largest number of planes.
     pub(crate) const MAX: usize = 8;
 }
 

@@ -1,4 +1,4 @@
-//! A view as it is stored: the same numbers, checked again when they are read.
+//! The serialised form of a view, checked when it is read.
 
 use super::{DVec2, DVec3, InputError, InputErrorKind, Lens, Plane, check};
 
