@@ -44,7 +44,7 @@ cargo test "${all[@]}"
 
 # Everything ran above. Here each set of features builds on its own, and gives the same results to the bit.
 same=(conventions:: errors:: properties:: snapshots::)
-for features in std libm; do
+for features in std libm libm,alloc; do
     step "tests, features: $features"
     only=(--package shadowfit --no-default-features --features "$features")
     cargo check "${only[@]}" --lib --tests

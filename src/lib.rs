@@ -75,8 +75,8 @@
 //!
 //! # Features
 //!
-//! - `std` (on): square roots from the standard library, and what needs memory of its own: the planner and [`Solidity`](mesh::Solidity).
-//!   Without it, enable `libm`.
+//! - `std` (on): square roots from the standard library; brings `alloc`. Without it, enable `libm`.
+//! - `alloc`: what needs an allocator: the planner, and whether meshes are watertight ([`Solidity`](mesh::Solidity)).
 //! - `libm`: square roots from the `libm` crate.
 //! - `parry3d`: bodies, boxes and convex hulls from and to parry3d.
 //! - `spade`: meshes cut finely enough for paraboloid maps (`Tessellator`).
@@ -107,6 +107,8 @@
 //! glam 0.33.12 to 0.34 are accepted, and the one in use is re-exported as [`glam`].
 #![no_std]
 
+#[cfg(feature = "alloc")]
+extern crate alloc;
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
@@ -119,13 +121,13 @@ pub mod focus;
 pub mod input;
 pub mod map;
 mod math;
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 pub mod mesh;
 pub mod multiview;
 pub mod omni;
 #[cfg(feature = "parry3d")]
 mod parry;
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 pub mod plan;
 mod settings;
 pub mod warp;
@@ -160,7 +162,7 @@ mod pages {
     struct LightsAllAround;
     #[doc = include_str!("../docs/migrating.md")]
     struct Migrating;
-    #[cfg(feature = "std")]
+    #[cfg(feature = "alloc")]
     #[doc = include_str!("../docs/planner.md")]
     struct Planner;
 }

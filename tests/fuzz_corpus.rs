@@ -38,7 +38,7 @@ fn virtual_samples() {
     replay("virtual_samples", targets::virtual_samples);
 }
 
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 #[test]
 fn planner() {
     replay("planner", targets::planner);

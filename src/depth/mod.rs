@@ -3,7 +3,7 @@
 
 pub(crate) mod bias;
 mod normal_offset;
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 pub(crate) mod second_depth;
 mod splat;
 mod tolerance;
@@ -11,7 +11,7 @@ mod virtual_sample;
 
 pub use crate::map::receiver_offset::ReceiverOffset;
 pub use bias::DepthBias;
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 pub use second_depth::{Culling, DepthTest};
 pub use splat::Splat;
 pub use tolerance::{ComparisonTolerance, RASTER_GRID};

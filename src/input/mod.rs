@@ -14,4 +14,4 @@ pub use clip_space::{DepthRange, TextureOrigin, YAxis};
 pub use light::LightPlanes;
 pub use numbers::IntoMatrix;
 pub use scene::{Bounding, ConvexScene, DAabb};
-pub use view::{FrustumPlanes, Lens, Tangents};
+pub use view::{FrustumPlanes, Lens, OrthographicCamera, PerspectiveCamera, Tangents};

@@ -3,8 +3,8 @@
 use crate::convex::Plane;
 use crate::focus::farthest_corner;
 use crate::input::scene::Aabb;
+use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
-use std::vec::Vec;
 
 /// Boxes with their names, in groups with a box around each.
 #[derive(Clone, Debug, Default)]

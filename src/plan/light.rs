@@ -15,8 +15,8 @@ use crate::input::scene::{Aabb, Scene};
 use crate::mesh::Solidity;
 use crate::settings::filter::Filter;
 use crate::settings::{Settings, Shift, Warp};
-use glam::DVec3;
-use std::vec::Vec;
+use alloc::vec::Vec;
+use glam::{DVec2, DVec3};
 
 /// Texels no finer than this are no gain: a map with more parts to it has to be better by so much.
 pub(super) const WORTH: f64 = 1.1;
@@ -92,7 +92,8 @@ impl Candidate {
     /// The worst alone would not tell: a point where all maps are as coarse, as where the ground runs out of view, may be
     /// the worst of all, while everything else is twice as fine.
     fn times(&self, other: &Self) -> f64 {
-        (self.aliasing / other.aliasing * (self.mean / other.mean)).sqrt()
+        // The square root of an f64 is in `std` alone; glam has it from `libm` too.
+        DVec2::splat(self.aliasing / other.aliasing * (self.mean / other.mean)).sqrt().x
     }
 }
 
@@ -192,7 +193,7 @@ impl Planner<'_> {
                 Outcome::Surrounded(_) => return Ok(None),
             };
             let kind = if warp.bends() { Kind::Warped } else { Kind::Uniform };
-            Ok(Some(Candidate::new(kind, std::vec![Projection::Frustum(map)], points)))
+            Ok(Some(Candidate::new(kind, alloc::vec![Projection::Frustum(map)], points)))
         };
         let (wanted, shift) = (self.budget.settings().warp(), self.budget.settings().shift());
         let straight = if wanted.bends() { Warp::Uniform } else { wanted };
@@ -304,7 +305,7 @@ impl Planner<'_> {
             Projection::Paraboloid(paraboloid) => loosened(&[paraboloid.clip_plane()], self.objects.extent),
             _ => Vec::new(),
         };
-        let mut drawn = std::vec![false; boxes.len()];
+        let mut drawn = alloc::vec![false; boxes.len()];
         body.culler().boxes(boxes, &mut drawn);
         let (begin, mut triangles) = (casters.len(), 0);
         for ((&id, one), _) in ids.iter().zip(boxes).zip(&drawn).filter(|(_, drawn)| **drawn) {

@@ -17,11 +17,11 @@ use crate::map::quality::DepthFormat;
 use crate::map::shadow_map::ShadowMap;
 use crate::omni::Paraboloid;
 use crate::settings::filter::Filter;
+use alloc::vec::Vec;
 use core::ops::Range;
 use glam::DVec3;
 use light::{Planner, Reach};
 use seen::Seen;
-use std::vec::Vec;
 
 pub use budget::Budget;
 pub use objects::{Object, Objects, Surface};
@@ -186,7 +186,7 @@ impl LightPlan {
             filter: Filter::Nearest,
             aliasing: 0.0,
             passes: Vec::new(),
-            reasons: std::vec![why],
+            reasons: alloc::vec![why],
         }
     }
 

@@ -4,8 +4,8 @@ use super::groups::Groups;
 use crate::error::{InputError, InputErrorKind, check};
 use crate::input::scene::{Aabb, checked_box, of_boxes};
 use crate::mesh::{OpenShape, Solidity, SolidityReport};
+use alloc::vec::Vec;
 use glam::DVec3;
-use std::vec::Vec;
 
 /// What an object is made of, which decides how its shadow can be tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -9,8 +9,8 @@ use crate::input::light::CubeFace;
 use crate::input::scene::{Aabb, Scene};
 use crate::math::angle;
 use crate::omni::{Paraboloid, Paraboloids};
+use alloc::vec::Vec;
 use glam::DVec3;
-use std::vec::Vec;
 
 /// How far, in texels, a paraboloid map may bend an edge.
 const BENT: f64 = 0.5;
@@ -76,7 +76,7 @@ impl Planner<'_> {
 
     fn paraboloids(&self, focus: &Focus<'_>, points: &[DVec3], size: u32) -> Found {
         let (kind, paraboloids) = match focus.paraboloids(&self.settings(size)) {
-            Paraboloids::One(one) => (Kind::Paraboloid, std::vec![one]),
+            Paraboloids::One(one) => (Kind::Paraboloid, alloc::vec![one]),
             Paraboloids::Two(two) => (Kind::DualParaboloid, two.to_vec()),
             Paraboloids::Empty(empty) => return Err(empty),
             Paraboloids::Directional => return Ok(None),

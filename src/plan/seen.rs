@@ -7,8 +7,8 @@ use crate::focus::{Focus, VIEW_IDS, clip_all, farthest_corner};
 use crate::input::scene::{Aabb, Region};
 use crate::input::view::View;
 use crate::math::bounds::Interval;
+use alloc::vec::Vec;
 use glam::DVec3;
-use std::vec::Vec;
 
 /// The receivers in view, and the view narrowed to them.
 pub(super) struct Seen {

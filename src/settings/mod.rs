@@ -78,7 +78,7 @@ impl Default for Warp {
     }
 }
 
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 impl Warp {
     /// Whether texels are spread unevenly.
     pub(crate) const fn bends(self) -> bool {

@@ -22,7 +22,7 @@ fn results_have_the_same_bits_everywhere() {
 }
 
 /// `SHADOWFIT_STORE=1 cargo test --test bits` stores a change of these, and the next run compares with it.
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 #[test]
 fn plans_have_the_same_bits_everywhere() {
     let found = bits::plans::plans();

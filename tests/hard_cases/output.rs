@@ -6,7 +6,7 @@ use shadowfit::{
     depth::{ComparisonTolerance, Decision, TangentPlane},
     omni::Paraboloids,
 };
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 use shadowfit::{
     depth::{Culling, DepthTest},
     mesh::Solidity,
@@ -131,7 +131,7 @@ fn centre(map: &ShadowMap, x: u32, y: u32) -> shadowfit::glam::DVec2 {
 /// lies within the tolerance; whatever is nearer to the light by more shadows it. (`DepthTest` says so of each test.)
 #[test]
 fn row_32_caster_touching_its_receiver() {
-    #[cfg(feature = "std")]
+    #[cfg(feature = "alloc")]
     {
         assert_eq!(DepthTest::First.culling(Solidity::Watertight), Culling::None);
         assert_eq!(DepthTest::Second.culling(Solidity::Watertight), Culling::Front);

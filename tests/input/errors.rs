@@ -2,7 +2,7 @@
 //! result.
 
 use shadowfit::glam::{DMat4, DVec3, DVec4, Vec3};
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 use shadowfit::plan::{Budget, Object, Objects};
 use shadowfit::{
     Aabb, ClipSpace, InputError, Light, Outcome, Scene, Settings, View, Warp, fit,
@@ -446,7 +446,7 @@ fn sides_of_settings() {
     assert_eq!(settings.with_map_sides(32, 32).unwrap(), settings.with_map_size(32).unwrap());
 }
 
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 #[test]
 fn plans() {
     let budget = Budget::new(Settings::default());

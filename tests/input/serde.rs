@@ -197,7 +197,7 @@ fn settings_of_one_size() {
     assert!(error.contains("map_width must lie in [4, 65536]; got 3"), "{error}");
 }
 
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 #[test]
 fn budgets() {
     use shadowfit::Filter;

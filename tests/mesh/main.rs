@@ -5,7 +5,7 @@
 
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 mod solidity;
 #[cfg(feature = "spade")]
 mod tessellation;

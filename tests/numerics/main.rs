@@ -5,6 +5,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 mod precision;
 mod single_precision;

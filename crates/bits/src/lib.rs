@@ -7,7 +7,7 @@
 
 #![allow(missing_docs, reason = "not published: what a name says is not said again")]
 
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 pub mod plans;
 pub mod setups;
 pub mod table;

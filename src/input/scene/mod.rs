@@ -8,9 +8,9 @@ pub use boxes::{Aabb, Bounding, DAabb};
 pub use convex::ConvexScene;
 
 pub(crate) use boxes::Boxes;
-#[cfg(not(feature = "std"))]
+#[cfg(not(feature = "alloc"))]
 use boxes::checked_box;
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 pub(crate) use boxes::{checked_box, of_boxes};
 pub(crate) use region::Region;
 
@@ -156,7 +156,7 @@ impl<'a> Scene<'a> {
     }
 
     /// As [`Self::new`], for boxes that were checked before.
-    #[cfg(feature = "std")]
+    #[cfg(feature = "alloc")]
     pub(crate) fn of_checked(casters: &'a [Aabb], receivers: &'a [Aabb]) -> Self {
         let [casters, receivers] = [casters, receivers].map(|boxes| Boxes::new(boxes, DVec3::ZERO));
         Self { bounds: Bounds::Lists { casters, receivers, extent: casters.extent() } }

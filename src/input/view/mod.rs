@@ -10,6 +10,7 @@ use crate::math::bounds::{Interval, least, most};
 use glam::{DMat4, DVec2, DVec3};
 
 mod ball;
+mod camera;
 mod decode;
 mod frustum;
 mod matrices;
@@ -18,6 +19,7 @@ mod planes;
 mod stored;
 mod tangents;
 
+pub use camera::{OrthographicCamera, PerspectiveCamera};
 pub use planes::FrustumPlanes;
 pub use tangents::Tangents;
 

@@ -199,7 +199,7 @@ pub fn take_any_bits(bytes: &[u8]) {
             with_scene(&mut bits, &view, &light, Scene::new(&casters, &receivers), &settings);
         }
     }
-    #[cfg(feature = "std")]
+    #[cfg(feature = "alloc")]
     planned(&mut bits, &view, &light, &settings);
     if let Ok(scene) = Scene::from_box(bits.triple(), bits.triple()) {
         sliced(&mut bits, &view, &light, &scene, &settings);
@@ -374,7 +374,7 @@ fn sliced(bits: &mut Bits<'_>, view: &View, light: &Light, scene: &Scene<'_>, se
     }
 }
 
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 fn solids(bits: &mut Bits<'_>) {
     let positions = bits.list(8, Bits::point);
     let triangles = bits.list(12, |bits| [(); 3].map(|()| bits.below(9) as u32));
@@ -384,7 +384,7 @@ fn solids(bits: &mut Bits<'_>) {
     }
 }
 
-#[cfg(not(feature = "std"))]
+#[cfg(not(feature = "alloc"))]
 fn solids(_: &mut Bits<'_>) {}
 
 #[cfg(feature = "spade")]
@@ -407,7 +407,7 @@ fn refiner(bits: &mut Bits<'_>) {
 #[cfg(not(feature = "spade"))]
 fn refiner(_: &mut Bits<'_>) {}
 
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 fn planned(bits: &mut Bits<'_>, view: &View, light: &Light, settings: &Settings) {
     use shadowfit::Filter;
     use shadowfit::plan::{Budget, Object, Objects, Surface, plan};

@@ -14,7 +14,7 @@
 pub mod anything;
 pub mod constructors;
 pub mod paraboloid;
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 pub mod planner;
 pub mod rays;
 pub mod results;
@@ -23,6 +23,6 @@ pub mod shared;
 pub mod single_precision;
 pub mod slices;
 pub mod targets;
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 pub mod town;
 pub mod virtual_samples;

@@ -46,7 +46,7 @@ pub fn virtual_samples(bytes: &[u8]) {
 }
 
 /// All that is claimed of plans.
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 pub fn planner(bytes: &[u8]) {
     use super::planner;
     use super::town::{Bytes, LitTown};
