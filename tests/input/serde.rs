@@ -182,21 +182,6 @@ fn settings() {
     tampered(&settings, "/border", json!(500), "border must lie in");
 }
 
-/// From when all maps were square.
-#[test]
-fn settings_of_one_size() {
-    let settings = Settings::new(512, 720).unwrap().with_border(7).unwrap();
-    let mut stored = to_value(settings).unwrap();
-    let fields = stored.as_object_mut().unwrap();
-    let width = fields.remove("map_width").unwrap();
-    assert_eq!(fields.remove("map_height"), Some(width.clone()));
-    fields.insert("map_size".into(), width);
-    assert_eq!(from_value::<Settings>(stored.clone()).unwrap(), settings);
-    stored["map_size"] = json!(3);
-    let error = from_value::<Settings>(stored).unwrap_err().to_string();
-    assert!(error.contains("map_width must lie in [4, 65536]; got 3"), "{error}");
-}
-
 #[cfg(feature = "alloc")]
 #[test]
 fn budgets() {
