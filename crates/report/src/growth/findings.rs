@@ -2,7 +2,7 @@
 
 use super::cost::{Cost, Counted, Work};
 use super::curve::Curve;
-use super::write_up::{Exponent, Seconds, count};
+use super::words::{Exponent, Seconds, count};
 use crate::chapter::Figure;
 
 /// What costs no more than so many times as much, and no less, costs the same.

@@ -8,6 +8,7 @@
 //! | `terrain`, `card` | what is timed on the card |
 //! | [`curve`] | the figures of one work as a curve, and its exponents |
 //! | `findings`, `write_up` | what the figures say |
+//! | `words` | counts, times and exponents as they are written |
 
 mod card;
 mod casters;
@@ -20,6 +21,7 @@ mod terrain;
 #[cfg(test)]
 mod tests;
 mod town;
+mod words;
 mod write_up;
 
 use anyhow::{Context, Result};
