@@ -154,13 +154,13 @@ fn tampered_lights() {
 }
 
 #[test]
-fn slices() {
+fn cascades() {
     [SplitScheme::Uniform, SplitScheme::Logarithmic, SplitScheme::Practical(0.1)].into_iter().for_each(comes_back);
     [CascadeLayout::Array, CascadeLayout::Atlas].into_iter().for_each(comes_back);
     let scene = Scene::from_box((-50.0, -3.0, -90.0), (50.0, 5.0, 0.0)).unwrap();
     let cuts = CascadeSplits::Visible { count: 5, split: SplitScheme::Practical(0.1) };
-    let slices = Cascades::new(&view(100.0), &spot(), &scene, cuts, 0.1).unwrap();
-    let maps = slices.fit(&Settings::default());
+    let cascades = Cascades::new(&view(100.0), &spot(), &scene, cuts, 0.1).unwrap();
+    let maps = cascades.fit(&Settings::default());
     comes_back(maps.extent(CascadeLayout::Atlas));
     comes_back(maps.tile(4, CascadeLayout::Atlas).unwrap());
 }

@@ -1,4 +1,4 @@
-//! How cost grows: with lights, casters, planes of S, texels of the map, triangles and slices.
+//! How cost grows: with lights, casters, planes of S, texels of the map, triangles and cascades.
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -59,7 +59,7 @@ pub fn measure(size: Size) -> Result<Measured> {
     let costs = [
         part("lights", lights::measure(size))?,
         part("casters", casters::measure(size))?,
-        part("planes, map size and slices", setup::measure(size))?,
+        part("planes, map size and cascades", setup::measure(size))?,
         part("the card", card::measure(&gpu, size))?,
     ]
     .concat();

@@ -38,10 +38,10 @@ pub fn chapter(measured: &Measured) -> Result<Chapter> {
         )),
         Part::Plot(relative(
             "growth-setup",
-            "Time over planes of S and slices, relative to the fewest",
-            "Both axes relative to the first point: the planes of a box, and one slice. The steeper, the more one more \
+            "Time over planes of S and cascades, relative to the fewest",
+            "Both axes relative to the first point: the planes of a box, and one cascade. The steeper, the more one more \
              costs.",
-            &over(&[Counted::Planes, Counted::Slices]),
+            &over(&[Counted::Planes, Counted::Cascades]),
         )),
     ];
     parts.push(Part::Plot(relative(
@@ -73,7 +73,7 @@ fn opening(measured: &Measured) -> String {
         format!("The card is {card}; its passes are timed by its own clock.")
     };
     format!(
-        "How does cost grow with the number of lights, casters, planes of S, texels, triangles and slices? Each kind of \
+        "How does cost grow with the number of lights, casters, planes of S, texels, triangles and cascades? Each kind of \
          work is timed in turn for each number of things, round after round, in one town and one view. Times are medians; \
          how many times as long is the median, over the rounds, of a time over that of the fewest things in the same \
          round. An exponent k says that twice as many things take 2ᵏ times as long: it is the slope of the line of least \
