@@ -80,7 +80,7 @@
 //! - `libm`: square roots from the `libm` crate.
 //! - `parry3d`: bodies, boxes and convex hulls from and to parry3d.
 //! - `spade`: meshes cut finely enough for paraboloid maps (`Tessellator`).
-//! - `wgsl`: functions for a renderer's own shaders ([`wgsl`]).
+//! - `wgsl`: functions for a renderer's own shaders (`wgsl`).
 //! - `serde`: views, lights, settings and results can be stored; what is read is checked like any other input.
 //!
 //! # Other libraries

@@ -17,8 +17,8 @@ use glam::DVec3;
 
 /// Several views, a light and a scene brought together, for one map that serves all of the views.
 ///
-/// R is what any of them sees, H what can cast on any of it. The map's window and depth range hold all of it, the convex
-/// hull of the parts of R on the light's rays, so that views which overlap share texels and views far apart waste those
+/// R is the receiver volume of any of them, H the caster volume of any. The map's window and depth range hold all of it, the
+/// convex hull of the parts of R on the light's rays, so that views which overlap share texels, and views far apart waste those
 /// between them; [`Self::sharing`] says which it is. Each view's own [`Focus`] is an element of this.
 ///
 /// ```
@@ -31,34 +31,44 @@ use glam::DVec3;
 /// let settings = Settings::default();
 /// assert!(eyes.sharing(&settings).is_worth_it());
 /// if let Outcome::Map(map) = eyes.fit(&settings) {
-///     // Draw what can cast on anything that either eye sees.
+///     // Draw the casters of either eye.
 ///     let draws = eyes.bodies(FocusForm::ReceiverHull).any(|body| body.intersects_aabb((0.0, 0.0, -9.0), (1.0, 1.0, -8.0)));
 ///     assert!(draws && eyes.aliasing_over(&map).is_some());
 /// }
 /// # Ok::<(), shadowfit::InputError>(())
 /// ```
+#[doc(alias = "stereo")]
+#[doc(alias = "VR")]
+#[doc(alias = "split screen")]
 #[derive(Clone, Debug)]
 pub struct SharedFocus<'a> {
     parts: [Focus<'a>; SharedFocus::MAX],
     len: usize,
 }
 
-/// What one map for several views costs beside one for each ([`SharedFocus::sharing`]): the texels that bring texels to the
-/// size of pixels, in maps of the settings' size.
+/// The cost of one map for several views beside that of one for each ([`SharedFocus::sharing`]), as the number of texels that
+/// would bring texels to the size of pixels, over that of a map of the settings' size.
+///
+/// ```
+/// use shadowfit::multiview::Sharing;
+///
+/// assert!(Sharing { shared: 3.0, separate: 5.5 }.is_worth_it());
+/// assert!(!Sharing { shared: f64::INFINITY, separate: 5.5 }.is_worth_it()); // no frustum holds all receivers
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sharing {
-    /// Of one map for all views; infinite where none holds all that they see, 0 where none is needed.
+    /// Of one map for all views; infinite where no frustum holds all receivers, 0 where no map is needed.
     #[cfg_attr(feature = "serde", serde(with = "crate::math::infinity"))]
     pub shared: f64,
-    /// Of one map for each view, in all.
+    /// Of one map for each view, together.
     #[cfg_attr(feature = "serde", serde(with = "crate::math::infinity"))]
     pub separate: f64,
 }
 
 impl Sharing {
-    /// Whether one map for all is the cheaper way: it has to save a tenth of the texels, for less than that is not worth that
-    /// every view depends on where the others look.
+    /// Whether one map for all views is the cheaper way. It has to save a tenth of the texels: less is not worth it, as each
+    /// view's texels then depend on where the others look.
     #[must_use]
     pub fn is_worth_it(&self) -> bool {
         const WORTH: f64 = 1.1;
@@ -66,7 +76,7 @@ impl Sharing {
     }
 }
 
-/// What is nearer to the first view's camera plane than this part of the least near distance makes the views too different
+/// Receivers nearer to the first view's camera plane than this part of the least near distance make the views too different
 /// for its perspective.
 const BEFORE: f64 = 0.5;
 
@@ -74,11 +84,21 @@ impl<'a> SharedFocus<'a> {
     /// The most views.
     pub const MAX: usize = 4;
 
-    /// Brings up to [`Self::MAX`] views, a light and a scene together.
+    /// Brings one to [`Self::MAX`] views, a light and a scene together.
     ///
     /// # Errors
     ///
     /// Names `"views"` when there are none or too many.
+    ///
+    /// ```
+    #[doc = include_str!("examples/sun.txt")]
+    /// use shadowfit::multiview::SharedFocus;
+    ///
+    /// let shared = SharedFocus::new(&[view, view.narrowed(0.1, 20.0)?], &sun, &scene)?;
+    /// assert_eq!((shared.len(), shared[0].view()), (2, &view));
+    /// assert!(SharedFocus::new(&[], &sun, &scene).is_err());
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     pub fn new(views: &[View], light: &Light, scene: &Scene<'a>) -> Result<Self, InputError> {
         let Some((first, others)) = views.split_first() else {
             return check::fail("views", InputErrorKind::Empty);
@@ -94,12 +114,25 @@ impl<'a> SharedFocus<'a> {
         Ok(Self { parts, len: views.len() })
     }
 
-    /// Fits one map to all that the views see.
+    /// Fits one map to the receivers of all views.
     ///
-    /// Warps follow the first view where all of that lies before its camera, and pixels all count the same where not.
-    /// [`Origin::Eye`](crate::Origin::Eye) is the first view's, [`ShadowMap::aliasing`] and the like tell of the first view, and
-    /// [`Self::aliasing_over`] of all. A stable map has room for all views as they stand to each other, and keeps its grid
+    /// Warps follow the first view where all receivers lie before its camera; otherwise all pixels count the same.
+    /// [`Origin::Eye`](crate::Origin::Eye) is the first view's; [`ShadowMap::aliasing`] and the like are for the first view,
+    /// [`Self::aliasing_over`] for all. A stable map has room for all views as they stand to each other, and keeps its grid
     /// while that stays the same.
+    ///
+    /// ```
+    #[doc = include_str!("examples/sun.txt")]
+    /// use shadowfit::multiview::SharedFocus;
+    ///
+    /// let other = View::perspective((6.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 50.0)?;
+    /// let map = SharedFocus::new(&[view, other], &sun, &scene)?.fit(&settings).into_map().expect("receivers");
+    /// for ground in [ground, ground + 6.0 * DVec3::X] {
+    ///     let place = map.texture_from_world().project_point3(ground);
+    ///     assert!(place.min_element() > 0.0 && place.max_element() < 1.0);
+    /// }
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn fit(&self, settings: &Settings) -> Outcome {
         let mut visible = self.visible();
@@ -123,13 +156,34 @@ impl<'a> SharedFocus<'a> {
         }
     }
 
-    /// The focus bodies of the views in one of their forms: what meets none of them need not be drawn.
+    /// The caster volumes of the views, in one of their forms: a caster that touches none of them need not be drawn.
+    ///
+    /// ```
+    #[doc = include_str!("examples/sun.txt")]
+    /// use shadowfit::multiview::SharedFocus;
+    ///
+    /// let shared = SharedFocus::new(&[view, view], &sun, &scene)?;
+    /// assert_eq!(shared.bodies(FocusForm::ReceiverHull).count(), 2);
+    /// assert!(shared.bodies(FocusForm::ReceiverHull).all(|body| body.contains(ground + 0.1 * up)));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     pub fn bodies(&self, form: FocusForm) -> impl Iterator<Item = ConvexBody> {
         self.iter().map(move |part| part.caster_volume(form))
     }
 
-    /// The worst aliasing of a map of [`Self::fit`] over all that the views see, each point in the pixels of the view that
-    /// sees it, and the mean of the means over what each sees. `None` where nothing is visible. See [`ShadowMap::aliasing_over`].
+    /// The worst aliasing of a map of [`Self::fit`] over the receivers of all views, each point in the pixels of the view that
+    /// sees it, and the mean of the views' means. `None` without receivers. See [`ShadowMap::aliasing_over`].
+    ///
+    /// ```
+    #[doc = include_str!("examples/sun.txt")]
+    /// use shadowfit::multiview::SharedFocus;
+    ///
+    /// let shared = SharedFocus::new(&[view, view], &sun, &scene)?;
+    /// let map = shared.fit(&settings).into_map().expect("receivers");
+    /// let (both, one) = (shared.aliasing_over(&map).expect("receivers"), map.aliasing_over(&shared[0]).expect("receivers"));
+    /// assert_eq!(both.worst, one.worst); // the same view twice
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn aliasing_over(&self, map: &ShadowMap) -> Option<Aliasing> {
         let (mut found, mut sum, mut count): (Option<Aliasing>, _, _) = (None, 0.0, 0.0);
@@ -143,10 +197,19 @@ impl<'a> SharedFocus<'a> {
         found.map(|found| Aliasing { mean: sum / count, ..found })
     }
 
-    /// What one map for all views costs beside one for each.
+    /// The cost of one map for all views beside that of one for each.
     ///
-    /// Texels are compared as the planner compares them, by the geometric mean of the worst and the mean over the
-    /// vertices of what each view sees; their number goes with its square. It fits one map more than there are views.
+    /// Texels are compared as the planner compares them, by the geometric mean of the worst and the mean aliasing over the
+    /// vertices of each R; their number goes with its square. It fits one map more than there are views.
+    ///
+    /// ```
+    #[doc = include_str!("examples/sun.txt")]
+    /// use shadowfit::multiview::SharedFocus;
+    ///
+    /// let sharing = SharedFocus::new(&[view, view], &sun, &scene)?.sharing(&settings);
+    /// assert!(sharing.is_worth_it() && sharing.shared < 0.51 * sharing.separate); // the same view twice
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn sharing(&self, settings: &Settings) -> Sharing {
         let cost = |outcome: &Outcome, parts: &[Focus<'_>]| match outcome {
@@ -160,8 +223,8 @@ impl<'a> SharedFocus<'a> {
         }
     }
 
-    /// What the views see, each as a body of its own. Where that has more vertices than there is room for, the largest count
-    /// as their bounding boxes.
+    /// The receiver volumes of the views, each as a body of its own. Where they have more vertices than there is room for, the
+    /// largest count as their bounding boxes.
     fn visible(&self) -> Polyhedron {
         const EACH: u32 = (Polyhedron::MAX_VERTICES / SharedFocus::MAX) as u32;
         let (mut all, mut one) = (Polyhedron::EMPTY, Polyhedron::EMPTY);
@@ -195,7 +258,7 @@ impl<'a> SharedFocus<'a> {
         })
     }
 
-    /// What can cast on anything that is visible.
+    /// The region of all casters.
     fn casters(&self) -> Option<Region<'a>> {
         self.region(|part| part.casters)
     }
@@ -214,8 +277,8 @@ impl<'a> SharedFocus<'a> {
         depths
     }
 
-    /// The view that stands for all: the first, where all that is visible lies before it, or one in whose image everything
-    /// has the same size.
+    /// The view that stands for all: the first, where all receivers lie before it, or one in whose image everything has the same
+    /// size.
     fn carrier(&self, visible: &Polyhedron) -> View {
         let first = self[0].view();
         let depths = VirtualCamera::depths(first, visible.positions());
@@ -251,7 +314,7 @@ fn seen_by(part: &Focus<'_>, map: &ShadowMap) -> ShadowMap {
     ShadowMap { view: *part.view(), ..*map }
 }
 
-/// The number of texels that brings those of a map to the size of pixels, over what it has.
+/// The number of texels that would bring those of a map to the size of pixels, over the number that it has.
 fn cost(map: &ShadowMap, parts: &[Focus<'_>]) -> f64 {
     let (mut worst, mut sum, mut count) = (0.0, 0.0, 0.0);
     for part in parts {

@@ -1,4 +1,4 @@
-//! Several maps for one light: the view cut into cascades in depth, and each fitted on its own.
+//! Cascaded shadow maps: the view cut in depth, and a map fitted to each cascade.
 
 mod layout;
 mod maps;
@@ -23,10 +23,10 @@ use crate::settings::Settings;
 use glam::DVec3;
 use split::rounded;
 
-/// A view cut into cascades in depth, each with a focus of its own (parallel-split, or cascaded, shadow maps: Zhang et al.
+/// A view cut into cascades in depth, each with a [`Focus`] of its own (cascaded or parallel-split shadow maps: Zhang et al.
 /// 2006; Engel, *Cascaded Shadow Maps*, ShaderX5, 2006).
 ///
-/// A cascade is a [narrowed](View::narrowed) view, so that its bodies, its fit, culling, bias and report are those of any fit.
+/// A cascade is a [narrowed](View::narrowed) view, so that its volumes, fit, culling, bias and report are those of any fit.
 ///
 /// ```text
 ///     view's near                                                          view's far
@@ -36,15 +36,6 @@ use split::rounded;
 ///                     ▒▒ here cascade 1 is blended in: its focus begins where this does
 /// ```
 ///
-/// # Guarantees
-///
-/// - Every depth is in exactly one cascade, [`Self::index_at`]. The first begins at the view's near plane and the last ends
-///   at its far plane, so that one cascade is the view itself.
-/// - Cuts are numbers of f32, and a shader that compares in f32 finds the cascade that the CPU does.
-/// - The focus of a cascade holds all of R in the cascade, in the zone where it is blended in, and as far beyond both ends as
-///   f32 can be wrong about a depth, if it is computed from positions relative to the eye. From positions in the world
-///   it is as wrong as these are, and where that is much, a zone to blend in covers it.
-///
 /// ```
 /// use shadowfit::{Light, Scene, Settings, View};
 /// use shadowfit::cascades::{CascadeLayout, CascadeSplits, Cascades, SplitScheme};
@@ -53,15 +44,29 @@ use split::rounded;
 /// let sun = Light::directional((0.4, 1.0, 0.2))?;
 /// let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
 ///
-/// let cuts = CascadeSplits::Visible { count: 4, split: SplitScheme::Practical(0.5) };
-/// let cascades = Cascades::new(&view, &sun, &scene, cuts, 0.1)?;
-/// let maps = cascades.fit(&Settings::default());
-/// for (index, map) in maps.maps() {
-///     println!("cascade {index}, to depth {}: {}", cascades[index].far, map.caster_matrix());
-/// }
-/// println!("{:?}", maps.extent(CascadeLayout::Atlas));
+/// let splits = CascadeSplits::Visible { count: 4, split: SplitScheme::Practical(0.5) }; // λ = 0.5
+/// let cascades = Cascades::new(&view, &sun, &scene, splits, 0.1)?;
+/// let maps = cascades.fit(&Settings::new(1024, 1080)?);
+/// assert_eq!(maps.maps().count(), 4);
+/// assert!(cascades[0].far < cascades[1].far);
+/// let atlas = maps.extent(CascadeLayout::Atlas);
+/// assert_eq!((atlas.width, atlas.height, atlas.layers), (2048, 2048, 1));
 /// # Ok::<(), shadowfit::InputError>(())
 /// ```
+///
+/// # Guarantees
+///
+/// - Every depth is in exactly one cascade, [`Self::index_at`]. The first begins at the view's near plane and the last ends
+///   at its far plane, so that one cascade is the view itself.
+/// - Splits are numbers of f32, and a shader that compares in f32 finds the same cascade as the CPU.
+/// - The focus of a cascade holds all of R in the cascade, in the zone where it is blended in, and as far beyond both ends as
+///   f32 can be wrong about a depth that is computed from positions relative to the eye. From positions in the world a depth
+///   is as wrong as these are, and where that is much, a zone to blend in covers it.
+#[doc(alias = "CSM")]
+#[doc(alias = "PSSM")]
+#[doc(alias = "cascaded shadow maps")]
+#[doc(alias = "parallel-split shadow maps")]
+#[doc(alias = "z-partitioning")]
 #[derive(Clone, Debug)]
 pub struct Cascades<'a> {
     /// One at least; those past the number of cascades are copies of the first.
@@ -73,37 +78,45 @@ pub struct Cascades<'a> {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Cascade<'a> {
-    /// The depth before the eye where it begins, in world units.
+    /// The view depth where it begins, in world units.
     pub near: f64,
-    /// The depth from which on the next cascade is blended in; where it ends, if none is.
+    /// The view depth from which on the next cascade is blended in; where it ends, if none is.
     pub blend: f64,
-    /// The depth where it ends; infinite where the view's own is.
+    /// The view depth where it ends; infinite where the view's own is.
     pub far: f64,
-    /// What is visible in it and in the zone where it is blended in, and what can cast on that.
+    /// The receivers in it and in the zone where it is blended in, and their casters.
     pub focus: Focus<'a>,
 }
 
-/// What f32 makes of a depth, of the distance from the eye: eight roundings, of an axis, its products with the position's
-/// coordinates, their sum, and of the coordinates themselves.
+/// The error of a view depth in f32, relative to the distance from the eye: eight roundings, of an axis, its products with
+/// the position's coordinates, their sum, and of the coordinates themselves.
 const DEPTH_ROUNDING: f64 = 8.0 / 16_777_216.0;
 
 impl<'a> Cascades<'a> {
     /// The most cascades there can be.
     pub const MAX: usize = 8;
 
-    /// Cuts a view.
+    /// Cuts a view into cascades.
     ///
-    /// `overlap` is the part of each cascade but the last, 0 to 1, in which the next one is blended in; the next one's map
-    /// covers it too. Of a first cascade that begins before anything is visible, it is the part where something is, if it
-    /// was cut by that.
-    ///
-    /// Of a scene of lists, each focus looks at all of them once.
+    /// `overlap`, 0 to 1, is the part of each cascade but the last in which the next one is blended in; the next one's map covers
+    /// it too. In a first cascade that begins before any receiver, it is a part of the range with receivers, if the splits are
+    /// [`CascadeSplits::Visible`]. Of a scene of lists, each focus looks at all of them once.
     ///
     /// # Errors
     ///
-    /// Names `"count"` or `"overlap"` when it is out of range, `"split"` when its part is outside 0 to 1, `"view"` when
+    /// Names `"count"` or `"overlap"` when it is out of range, `"split"` when λ is outside 0 to 1, `"view"` when
     /// its planes are to be split and the far one is at infinity, and `"cuts"` when they are too many, not finite, not
     /// ascending as f32, or not between the view's planes.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/cascades.txt")]
+    /// assert_eq!(cascades.len(), 4);
+    /// assert!(cascades[0].blend < cascades[0].far);
+    /// let fixed = Cascades::new(&view, &sun, &scene, CascadeSplits::At(&[10.0, 50.0]), 0.0)?;
+    /// assert_eq!((fixed[0].far, fixed[1].far, fixed[2].far), (10.0, 50.0, f64::INFINITY));
+    /// assert!(Cascades::new(&view, &sun, &scene, CascadeSplits::At(&[50.0, 10.0]), 0.0).is_err());
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     pub fn new(
         view: &View,
         light: &Light,
@@ -136,13 +149,30 @@ impl<'a> Cascades<'a> {
         Ok(Self { cascades, len: cuts.len() + 1 })
     }
 
-    /// The cascade that a depth before the eye belongs to: the first that ends beyond it, or the last.
+    /// The cascade of a view depth: the first that ends beyond it, or the last.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/cascades.txt")]
+    /// assert_eq!(cascades.index_at(view.near()), 0);
+    /// assert_eq!(cascades.index_at(cascades[0].far), 1); // a cascade ends before its far depth
+    /// assert_eq!(cascades.index_at(1e9), 3);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn index_at(&self, depth: f64) -> usize {
         self.iter().take(self.len - 1).filter(|cascade| depth >= cascade.far).count()
     }
 
-    /// How much of the next cascade to blend in at a depth, 0 to 1; 0 in the last one, wherever it ends.
+    /// The weight of the next cascade at a view depth, 0 to 1; 0 in the last one, wherever it ends.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/cascades.txt")]
+    /// let middle = 0.5 * (cascades[0].blend + cascades[0].far);
+    /// assert_eq!(cascades.blend_at(cascades[0].blend), 0.0);
+    /// assert!((cascades.blend_at(middle) - 0.5).abs() < 1e-9);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
+    #[doc(alias = "cascade blending")]
     #[must_use]
     pub fn blend_at(&self, depth: f64) -> f64 {
         let index = self.index_at(depth);
@@ -156,6 +186,13 @@ impl<'a> Cascades<'a> {
     }
 
     /// Fits a map for each cascade that needs one, all with the same settings.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/cascades.txt")]
+    /// let maps = cascades.fit(&settings);
+    /// assert!(maps.outcomes().iter().all(|outcome| outcome.map().is_some()));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn fit(&self, settings: &Settings) -> CascadeMaps<'_, 'a> {
         let mut outcomes = [const { Outcome::Empty(Empty::NoReceivers) }; Self::MAX];
@@ -168,7 +205,7 @@ impl<'a> Cascades<'a> {
 
 list!(Cascades<'a>, Cascade<'a>, cascades, "cascades");
 
-/// The eye depths of what is visible and lit.
+/// The view depths of the receivers.
 fn visible_depths(focus: &Focus<'_>) -> Interval {
     let (mut body, mut depths) = (Polyhedron::EMPTY, Interval::EMPTY);
     focus.cut_visible(&mut body, |_, _| ());
@@ -176,7 +213,7 @@ fn visible_depths(focus: &Focus<'_>) -> Interval {
     depths
 }
 
-/// How far from a depth f32 may take it to be, anywhere in view: by how far from the eye the frame's corners are there, and
+/// How far f32 may be wrong about a depth, anywhere in view: by how far from the eye the frame's corners are there, and
 /// by what f64 itself rounds of an eye far out.
 fn slack(view: &View, depth: f64) -> Result<f64, InputError> {
     let frame = view.narrowed(view.near(), depth)?.corners();

@@ -1,29 +1,35 @@
-//! Where a view is cut into cascades.
+//! Split schemes: the depths at which a view is cut into cascades.
 
 use super::Cascades;
 use crate::error::{Expected, InputError, InputErrorKind, MAX_COORDINATE, check};
 use crate::input::view::{Lens, View};
 use crate::math::bounds::Interval;
 
-/// How a range of depths is split: the cuts of Zhang, Sun, Xu & Lun, *Parallel-Split Shadow Maps for Large-scale Virtual
-/// Environments*, VRCIA 2006, §4.
+/// How a range of depths is split: Zhang, Sun, Xu & Lun, *Parallel-Split Shadow Maps for Large-scale Virtual Environments*,
+/// VRCIA 2006, §4.
 ///
-/// With n and f the ends of the range and k cascades, cut i is at
+/// With n and f the ends of the range and k cascades, split i is at
 ///
 /// ```text
 ///     Uniform          n + (f − n) i/k
 ///     Logarithmic      n (f/n)^(i/k)
-///     Practical(part)    part · logarithmic + (1 − part) · uniform
+///     Practical(λ)     λ · logarithmic + (1 − λ) · uniform
 /// ```
 ///
-/// A pixel is as large as its depth, and a texel of a uniform map, under a light across the view, is as long as its cascade:
-/// the worst aliasing of a cascade depends on the ratio of its ends, and is the least where all ratios are the same, which is
-/// the logarithmic split. Under that light, with T the tangent of half the field of view and ρ = (f/n)^(1/k), each cascade
-/// needs ρ texels across and (ρ − 1)/(2T) along the view for each pixel, k ρ(ρ − 1)/(2T) for all cascades together, which
-/// falls with k to ln(f/n)/(2T): the least for any spread of texels at all.
+/// The worst aliasing is least with the logarithmic split; `docs/cascades.md` says why. For an orthographic view pixels have
+/// one size at all depths, and all schemes are the uniform one.
 ///
-/// Where lines of sight are parallel, pixels have one size at all depths, and the same argument leads to the uniform
-/// split: it is what all of these are for an orthographic view.
+/// ```
+#[doc = include_str!("../examples/cascades.txt")]
+/// let at = |split| Cascades::new(&view.narrowed(1.0, 100.0)?, &sun, &scene, CascadeSplits::View { count: 2, split }, 0.0);
+/// assert!((at(SplitScheme::Uniform)?[0].far - 50.5).abs() < 1e-5);
+/// assert!((at(SplitScheme::Logarithmic)?[0].far - 10.0).abs() < 1e-5);
+/// assert!((at(SplitScheme::Practical(0.5))?[0].far - 30.25).abs() < 1e-5);
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
+#[doc(alias = "split lambda")]
+#[doc(alias = "lambda")]
+#[doc(alias = "practical split scheme")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -32,28 +38,38 @@ pub enum SplitScheme {
     Uniform,
     /// Cascades whose ends have one ratio.
     Logarithmic,
-    /// Between the two, the practical split scheme: 0 for the uniform cuts, 1 for the logarithmic ones. What is next to
-    /// the eye gets less than the logarithmic split gives it, which is mostly air.
+    /// Between the two, with λ from 0 (uniform) to 1 (logarithmic). The logarithmic scheme gives much to the range next to the eye,
+    /// which is mostly air.
     Practical(f64),
 }
 
-/// Which cuts to make.
+/// The depths at which a view is cut into cascades.
+///
+/// ```
+#[doc = include_str!("../examples/cascades.txt")]
+/// let visible = CascadeSplits::Visible { count: 3, split: SplitScheme::Logarithmic }; // moves with the view
+/// assert_eq!(Cascades::new(&view, &sun, &scene, visible, 0.1)?.len(), 3);
+/// let planes = CascadeSplits::View { count: 3, split: SplitScheme::Logarithmic }; // stays, for stable maps
+/// assert!(Cascades::new(&view, &sun, &scene, planes, 0.1).is_err()); // the far plane is at infinity
+/// assert_eq!(Cascades::new(&view.narrowed(0.1, 80.0)?, &sun, &scene, planes, 0.1)?.len(), 3);
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CascadeSplits<'a> {
-    /// The depths between the nearest and the farthest of what is visible and lit, so that neither a far plane at
-    /// infinity nor a near plane in the air before all that is seen matters. The cuts move with the view.
+    /// Between the nearest and the farthest receiver, so that neither a far plane at infinity nor a near plane in the air
+    /// matters. The splits move with the view.
     ///
-    /// Where these are so close to each other that f32 cannot tell the cuts apart, there are fewer cascades.
+    /// Where the ends are so close to each other that f32 cannot tell the splits apart, there are fewer cascades.
+    #[doc(alias = "SDSM")]
     Visible {
         /// How many cascades, 1 to [`Cascades::MAX`].
         count: usize,
         /// How they are split.
         split: SplitScheme,
     },
-    /// The depths between the view's own planes: the cuts stay where they are while the camera moves, as maps that must
-    /// not shimmer need it. Shadows that end before the far plane do are those of a view
-    /// [narrowed](View::narrowed) to that depth.
+    /// Between the view's own planes: the splits stay while the camera moves, as maps that must not shimmer need it. For shadows
+    /// that end before the far plane, [narrow](View::narrowed) the view to that depth.
     View {
         /// How many cascades, 1 to [`Cascades::MAX`].
         count: usize,
@@ -69,7 +85,7 @@ pub enum CascadeSplits<'a> {
 pub(super) struct Depths {
     depths: [f64; Cascades::MAX - 1],
     len: usize,
-    /// Where the first cascade that is cut begins.
+    /// Where the first cascade with receivers begins.
     pub(super) near: f64,
 }
 
@@ -81,7 +97,7 @@ impl core::ops::Deref for Depths {
 }
 
 impl CascadeSplits<'_> {
-    /// The depths of the cuts of a view; `visible` finds the eye depths of what is visible, upside down where nothing is.
+    /// The split depths of a view; `visible` finds the view depths of the receivers, upside down without any.
     pub(super) fn depths(&self, view: &View, visible: impl FnOnce() -> Interval) -> Result<Depths, InputError> {
         let (near, far) = (view.near(), view.far());
         match *self {

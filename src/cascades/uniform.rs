@@ -1,24 +1,26 @@
-//! What a shader needs to know of cascades, as one block of memory.
+//! The data that a shader needs about cascades, as one block of memory.
 
 use super::{CascadeLayout, CascadeMaps, Cascades};
 use crate::map::receiver_offset::ReceiverOffset;
 use crate::map::shadow_map::ShadowMap;
 
-/// What a shader needs to know of cascades: `struct shadowfit_Cascades` of `wgsl::CASCADES`, byte for byte.
+/// The data that a shader needs about cascades: `struct shadowfit_Cascades` of `wgsl::CASCADES`, byte for byte
+/// ([`CascadeMaps::uniform`]).
 ///
-/// Cascades without a map have the layer −1, and so have those past the last. What is said of them besides is zero, but for
-/// depths: the last cascade, and those past it, end at the largest f32.
+/// Cascades without a map have the layer −1, and so have those past the last. Their other numbers are zero, but for depths:
+/// the last cascade, and those past it, end at the largest f32.
+#[doc(alias = "cascade uniform buffer")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct CascadeUniform {
-    /// Columns of the matrix from positions to texture coordinates in the texture that holds all maps, and to the depth to
-    /// compare there, for each cascade.
+    /// For each cascade the columns of the matrix that receivers are tested with: from positions to texture coordinates in the
+    /// texture that holds all maps, and to the depth to compare there.
     pub texture_from_origin: [[f32; 16]; Cascades::MAX],
     /// The least and the largest texture coordinates inside the border of each cascade's map.
     pub inner: [[f32; 4]; Cascades::MAX],
-    /// The depth before the eye where each cascade ends.
+    /// The view depth where each cascade ends.
     pub far: [f32; Cascades::MAX],
-    /// The depth from which on the next cascade is blended in.
+    /// The view depth from which on the next cascade is blended in.
     pub blend: [f32; Cascades::MAX],
     /// The layer of each cascade's map; −1 for none.
     pub layer: [i32; Cascades::MAX],
@@ -37,6 +39,17 @@ impl CascadeUniform {
     };
 
     /// The block as bytes, little-endian as every GPU has it.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/cascades.txt")]
+    /// use shadowfit::cascades::CascadeUniform;
+    ///
+    /// let uniform = maps.uniform(CascadeLayout::Array, |_| None);
+    /// let bytes = uniform.to_bytes();
+    /// assert_eq!(bytes.len(), CascadeUniform::SIZE);
+    /// assert_eq!(bytes[..4], uniform.texture_from_origin[0][0].to_le_bytes());
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn to_bytes(&self) -> [u8; Self::SIZE] {
         let mut bytes = [0; Self::SIZE];
@@ -51,10 +64,18 @@ impl CascadeUniform {
 }
 
 impl CascadeMaps<'_, '_> {
-    /// What a shader needs to know of the cascades and of their maps, kept as `layout` says.
+    /// The data that a shader needs about the cascades and their maps, kept as `layout` says.
     ///
-    /// `offset` says of each map what its receivers are offset by in the test, if they are, see
-    /// [`ShadowMap::receiver_matrix_with`].
+    /// `offset` gives the receiver offset of each map, if it has one: that of its bias, see [`ShadowMap::receiver_matrix_with`].
+    ///
+    /// ```
+    #[doc = include_str!("../examples/cascades.txt")]
+    /// let biased = maps.uniform(CascadeLayout::Array, |map| map.bias(DepthFormat::Unorm24, 1.0).ok().map(|bias| bias.offset()));
+    /// assert_eq!(biased.layer, [0, 1, 2, 3, -1, -1, -1, -1]);
+    /// assert_eq!(biased.far[0], cascades[0].far as f32);
+    /// assert_ne!(biased.texture_from_origin, maps.uniform(CascadeLayout::Array, |_| None).texture_from_origin);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn uniform(
         &self,

@@ -1,4 +1,4 @@
-//! The bias that a fitted map needs: with it no plane shadows itself, and no more is added than that takes.
+//! The bias that a fitted map needs against shadow acne: enough for every plane, and no more than that takes.
 
 use crate::error::{Expected, InputError, check};
 use crate::map::quality::DepthFormat;
@@ -8,12 +8,11 @@ use crate::settings::Settings;
 use crate::warp::rounding::MapNoise;
 use glam::DVec3;
 
-/// What is added to depth so that no plane shadows itself ([`ShadowMap::bias`]).
+/// The depth bias of a map, with which no plane has shadow acne ([`ShadowMap::bias`]): a part for the rasteriser that draws
+/// casters and a part for the matrix that receivers are tested with.
 ///
-/// # Use
-///
-/// `constant` and `slope_scale` go to the rasteriser that draws casters, as they are: they have the sign of the map's clip space, which is
-/// away from the light, and negative where depth is reversed. `receiver` goes to the shadow test, through
+/// `constant` and `slope_scale` go to the rasteriser as they are: they have the sign of the map's clip space, which is away
+/// from the light, and negative where depth is reversed. [`Self::offset`] goes to the shadow test, through
 /// [`ShadowMap::receiver_matrix_with`] or, in clip space, [`ShadowMap::receiver_clip_matrix_with`].
 ///
 /// | | constant | slope_scale | clamp |
@@ -24,109 +23,46 @@ use glam::DVec3;
 /// | Direct3D | `DepthBias` | `SlopeScaledDepthBias` | 0 |
 /// | a shader that writes depth, with m = max(\|dz/dx\|, \|dz/dy\|) | steps of the format | times m | |
 ///
-/// `constant` and, in most maps, `slope_scale` depend on the format and the filter alone, which suits pipelines that they are
-/// compiled into: `slope_scale` is the one for places that f32 carries by a 64th of a texel, or, where it carries them farther, one of the
-/// few that are 1.25, 1.5625, … times that. What changes from fit to fit is in the receiver's matrix, which is uploaded with every fit anyway. One
-/// who tests with [`ShadowMap::receiver_matrix`] as it is takes [`Self::constant_alone`].
+/// `constant` and, in most maps, `slope_scale` depend on the format and the filter alone, so that they can be compiled into a
+/// pipeline; where f32 moves places by more than a 64th of a texel, the slope is one of the few that are 1.25, 1.5625, … times
+/// that. The receiver's part changes from fit to fit and is in a matrix that is uploaded anyway. To test with
+/// [`ShadowMap::receiver_matrix`] as it is, take [`Self::constant_alone`].
 ///
 /// ```
-/// use shadowfit::{DepthFormat, Light, Scene, Settings, View, fit};
-///
-/// let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 500.0)?;
-/// let sun = Light::directional((0.4, 1.0, 0.2))?;
-/// let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
-/// if let Some(map) = fit(&view, &sun, &scene, &Settings::default()).map() {
-///     let bias = map.bias(DepthFormat::Float32, 1.0)?; // a comparison sampler's 2 × 2 texels
-///     println!("constant {}, slope_scale {}", bias.constant, bias.slope_scale);
-///     println!("upload {} for casters and {} for receivers", map.caster_matrix(), map.receiver_matrix_with(&bias.offset()));
-/// }
+#[doc = include_str!("../examples/sun.txt")]
+/// let bias = map.bias(DepthFormat::Float32, Filter::Hardware2x2.reach())?;
+/// assert!(bias.constant == 1 && bias.slope_scale > 2.0); // for the pipeline that draws casters
+/// let receivers = map.receiver_matrix_with(&bias.offset()); // for the shader that lights receivers
+/// assert_ne!(receivers, map.receiver_matrix());
 /// # Ok::<(), shadowfit::InputError>(())
 /// ```
 ///
-/// # Derivation
-///
-/// On a plane depth is an affine function D of the place in the map, in texels (a projective map takes planes to planes),
-/// with gradient (p, q). A filter compares the depth of a receiver at R with what is stored for the middle T of each texel
-/// that it reads, which lies at most `reach` away, across and down.
-///
-/// *What f32 does.* A row is off by a sum of magnitudes that hardly changes over the scene, and depth by that over w:
-///
-/// ```text
-///     ε(X) = α/w(X) + β
-/// ```
-///
-/// ([`ShadowMap::depth_rounding`]; α and β come from the fit). On a plane 1/w is an affine function of the place, as depth is,
-/// and so is ε: where the corners of a triangle are off by ε each, points in it are off by no more than ε there, if a
-/// corner next to a lamp is off by a hundred times as much. Per texel 1/w changes by at most γ + (\|p\| + \|q\|)/−z·l, z
-/// the row of depth and l a light at a position, and by at most γ under a directional light (γ comes from the warp, 0 without
-/// one, see `rounding.rs`). So for ε that is α γ + π (\|p\| + \|q\|), where π = α/−z·l, the part of its distance to the
-/// lamp by which f32 moves a point.
-///
-/// *What is stored.* The corners of a triangle of that plane are off, each by itself: across by at most s = t + 1/256
-/// texels, t what f32 makes of a place ([`Self::places`]) and 1/256 a step of the grid that rasterisers move corners to,
-/// half of it for the grid and half for the interpolation of depth; in depth by at most ε. The triangle's own depth D' is
-/// affine too. E = D' − D is at the corners, and so in the triangle, within the affine function e = s(\|p\| + \|q\|) + ε, and
-/// its gradient within that of e and twice the largest e/h at a corner, h the corner's height over the side across. Where no
-/// h is less than what ε there is to ε at R times some h₀, nor than h₀, e/h is at most e(R)/h₀.
-///
-/// *What the receiver may exceed it by.* R is read off by t more, so that T − R is at most r = reach + t on each axis, and
-/// with e and ε at R and m = max(\|p'\|, \|q'\|)
-///
-/// ```text
-///     D(R) − D'(T) = (D'(R) − D'(T)) − E(R) ≤ r (|p'| + |q'|) + k e + j g
-///     k = 1 + 2√2 r/h₀       j = 2√2 r       g = α γ + π (|p| + |q|)
-///     |p| + |q| ≤ 2 (m + g + 2 e/h₀)         |p'| + |q'| ≤ 2 m
-///     |p| + |q| ≤ 2 (m + α γ + 2 ε/h₀)/n     n = 1 − 2 π − 4 s/h₀
-/// ```
-///
-/// *What the rasteriser adds.* Slope times the larger of \|p'\| and \|q'\|, or any value from there to the length of the
-/// gradient, as the API's documents allow: at least slope · m. So
-///
-/// ```text
-///     slope    = 2 r + 2 f                    f = (k s + j π)/n
-///     receiver = ε + (k + 4 f/h₀) ε + (j + 2 f) α γ
-///     constant = 1                            ε of the receiver's own depth, and of the corners'
-/// ```
-///
-/// covers all but the rounding of what is stored, half a step, and of what it is compared with where a card brings that
-/// into the map's format, the other half: one unit. In fixed point a unit is a step of the format, or in Direct3D less by
-/// so little that `receiver` takes it. In floating point it is a step at the triangle's largest depth, so that it covers
-/// the rounding of a stored value, which is relative too. It vanishes towards depth 0, where ε does not, so that **no
-/// number of units can cover ε**: at the near end of a map, or at the far end of a reversed one. That is why ε is the
-/// receiver's. Of it, what goes with 1/w is [`Self::relative`], as [`ReceiverOffset::relative`] does, and the rest [`Self::receiver`].
-///
-/// # What it takes for granted
-///
-/// - h₀ is a texel, or eight times s where that is more: of thinner triangles the slope itself is noise, and they may be
-///   biased too little. A corner that is x times as noisy as the receiver, x times nearer to a lamp, is x h₀ high.
-/// - Corners of triangles are no farther from the origin of the settings than what is visible, or their positions round
-///   more coarsely than ε says. A rasteriser's grid has 8 bits, as Direct3D asks and all cards today have.
-/// - Receivers and corners are not beside a lamp: closer to it, along the axis of the map, than a 16th of the way to the farthest of
-///   what is visible. A lamp in view has the air around it in view, down to its near distance, where t is hundreds of times
-///   what it is elsewhere, and a slope for that would let light through everywhere. What is beside it and steep may
-///   shadow itself, if f32 carries it by more than `places`; noise of depth is covered there too. Where more is needed,
-///   the light's near distance is the place to say so.
-/// - f32 moves no receiver by more than an eighth of its distance to the lamp.
-/// - It is about planes. At a convex edge, or on a curved surface made of facets, a texel's middle may lie on a facet with
-///   less slope than the receiver's; a card knows only the caster's.
+/// The bias is derived for planes, whatever the warp: see `docs/depth.md` for the derivation and for what it assumes. At
+/// creases and on curved surfaces made of facets some acne may remain.
+#[doc(alias = "acne")]
+#[doc(alias = "shadow acne")]
+#[doc(alias = "peter-panning")]
+#[doc(alias = "slope-scaled bias")]
+#[doc(alias = "polygon offset")]
+#[doc(alias = "DepthBiasState")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DepthBias {
     /// The format that it is for.
     pub format: DepthFormat,
-    /// Units of constant bias, see [`DepthFormat::bias_unit`]: negative where depth is reversed.
+    /// Units of constant bias for the rasteriser, see [`DepthFormat::bias_unit`]: negative where depth is reversed.
     pub constant: i32,
-    /// What multiplies the slope, the larger of depth's changes to the next texel, across and down: negative where depth is
+    /// The factor of the slope, the larger of depth's changes to the next texel across and down: negative where depth is
     /// reversed.
     pub slope_scale: f32,
-    /// What receivers are tested nearer to the light by all over the map, where the depth range is 1.
+    /// How much nearer to the light receivers are tested all over the map, where the depth range is 1.
     pub receiver: f64,
-    /// What they are tested nearer by besides, as a part for [`ReceiverOffset::relative`]: in depth it goes with 1/w.
+    /// How much nearer they are tested besides, as a part for [`ReceiverOffset::relative`]: in depth it goes with 1/w.
     pub relative: f64,
-    /// The most that both take off the depth of anything visible and no nearer to the light than its near distance.
+    /// The most that both take off the depth of any receiver no nearer to the light than its near distance.
     pub most: f64,
-    /// How far f32 may carry a place that `slope_scale` is enough for, in texels: [`Window::rounding`](crate::map::Window::rounding),
-    /// or what [`ShadowMap::place_rounding`] is away from a lamp.
+    /// How far f32 may move a place for `slope_scale` to suffice, in texels: [`Window::rounding`](crate::map::Window::rounding),
+    /// or under a local light [`ShadowMap::place_rounding`] beyond 1/16 of the farthest receiver's axial distance.
     pub places: f64,
 }
 
@@ -139,8 +75,8 @@ pub(crate) const LEAST_HEIGHT: f64 = 1.0;
 /// The largest part of their distance to the lamp that receivers may be off by.
 const MOST_OF_DISTANCE: f64 = 1.0 / 8.0;
 
-/// The largest part of the depth range that a receiver is moved by, of either kind: with more than all of it, everything is
-/// lit already, and numbers beyond all measure would leave f32.
+/// The largest part of the depth range that a receiver is moved by, of either kind: beyond the whole range everything is lit
+/// already, and unbounded numbers would leave f32.
 const MOST_OF_RANGE: f64 = 2.0;
 
 /// Slopes are the next multiple of this, so that they stay the same while the rounding of f32 changes.
@@ -173,19 +109,19 @@ fn one_of_few(usual: f32, needed: f64) -> f32 {
     slope
 }
 
-/// What a slope is made of, see [`DepthBias`].
+/// The terms of a slope, as `docs/depth.md` derives them.
 struct Slope {
     slope: f64,
     /// f.
     of_slope: f64,
     /// j: what an error of a corner's change can grow to on the way to the receiver.
     on_the_way: f64,
-    /// 1 + k + 4 f/h₀.
+    /// 1 + k + 4 f/h₀: what multiplies ε in the receiver's part.
     times: f64,
 }
 
 impl Slope {
-    /// For a filter's reach, places that f32 carries by so many texels, and points by such a part of their distance to the light.
+    /// For a filter's reach, places that f32 moves by so many texels, and points by such a part of their distance to the light.
     fn new(reach: f64, places: f64, part: f64) -> Self {
         let reach = reach + places;
         let corner = GRID + places;
@@ -208,14 +144,31 @@ pub(crate) fn stepped(slope: f64) -> f32 {
 }
 
 impl DepthBias {
-    /// The receiver's part, for [`ShadowMap::receiver_matrix_with`].
+    /// The receiver's part of the bias, for [`ShadowMap::receiver_matrix_with`].
+    ///
+    /// ```
+    #[doc = include_str!("../examples/spot.txt")]
+    /// let bias = map.bias(DepthFormat::Float32, 1.0)?;
+    /// let biased = map.texture_from_world_with(&bias.offset()).project_point3(floor).z;
+    /// let off = map.texture_from_world().project_point3(floor).z - biased;
+    /// assert!(off > 0.0 && off <= bias.most);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn offset(&self) -> ReceiverOffset {
         ReceiverOffset::of(self.relative, self.receiver)
     }
 
-    /// The constant that does without the receiver's part, with the sign of the map's clip space; `None` in floating point, where
-    /// none does.
+    /// The constant that does without the receiver's part, with the sign of the map's clip space; `None` in floating point, whose
+    /// units vanish towards depth 0, so that none does.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/sun.txt")]
+    /// let fixed = map.bias(DepthFormat::Unorm24, 1.0)?;
+    /// assert!(fixed.constant_alone().is_some_and(|units| units > fixed.constant));
+    /// assert_eq!(map.bias(DepthFormat::Float32, 1.0)?.constant_alone(), None);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn constant_alone(&self) -> Option<i32> {
         match self.format {
@@ -230,15 +183,27 @@ impl DepthBias {
 }
 
 impl ShadowMap {
-    /// The bias with which no plane shadows itself in this map.
+    /// The depth bias with which no plane has shadow acne in this map: the least that suffices for planes.
     ///
     /// `reach` is how far from a point the middles of the texels lie that are compared for it, at most, across and down, in
-    /// texels: 0.5 for the nearest texel, 1 for a comparison sampler's 2 × 2, n/2 for n × n. A filter of several samplers'
-    /// reads reaches as far as its farthest read does and one texel more.
+    /// texels: 0.5 for the nearest texel, 1 for a comparison sampler's 2 × 2, n/2 for n × n
+    /// ([`Filter::reach`](crate::Filter::reach)). A filter of several samplers' reads reaches as far as its farthest read does
+    /// and one texel more. `docs/depth.md` has the derivation.
     ///
     /// # Errors
     ///
     /// Names `"reach"` when it is not finite, below 0.5 or above [`Settings::MAX_SIZE`].
+    ///
+    /// ```
+    #[doc = include_str!("../examples/sun.txt")]
+    /// let two = map.bias(DepthFormat::Unorm24, Filter::Hardware2x2.reach())?;
+    /// let five = map.bias(DepthFormat::Unorm24, Filter::Pcf(5).reach())?;
+    /// assert!(two.slope_scale < five.slope_scale); // a wider filter needs more
+    /// assert!(map.bias(DepthFormat::Unorm24, 0.0).is_err());
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
+    #[doc(alias = "shadow acne")]
+    #[doc(alias = "acne")]
     pub fn bias(&self, format: DepthFormat, reach: f64) -> Result<DepthBias, InputError> {
         let reach = checked_reach(reach)?;
         let MapNoise { depth, place, least_w, away_w, to_light, change } = self.noise;
@@ -268,12 +233,22 @@ impl ShadowMap {
         })
     }
 
-    /// How far behind a caster a receiver may be and still be lit, in world units along the ray through a point on the
-    /// caster: what the bias costs, and what lifts shadows off the feet of things ("peter-panning").
+    /// Peter-panning: how far behind a caster a receiver may be and still be lit, in world units along the light's ray through a
+    /// point on the caster.
     ///
-    /// It is the most that a driver may make of the bias, on a plane across `normal` (of any length), where the ray goes
-    /// through the middle of a texel; elsewhere in the texel it is more or less by the plane's own slope. Infinite outside
-    /// of the map, where the light sees the plane from its edge, and where no depth is so much larger.
+    /// It is the most that a driver may make of the bias, on a plane across `normal` (of any length), where the ray goes through
+    /// the middle of a texel; elsewhere in the texel it is more or less by the plane's own slope. Infinite outside of the map,
+    /// where the light sees the plane from its edge, and where no depth is so much larger.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/sun.txt")]
+    /// let bias = map.bias(DepthFormat::Unorm24, 1.0)?;
+    /// let gap = map.bias_distance(ground, up, &bias);
+    /// assert!(0.0 < gap && gap < 0.5); // shadows begin within half a metre of the feet of things
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
+    #[doc(alias = "peter-panning")]
+    #[doc(alias = "detached shadow")]
     #[must_use]
     pub fn bias_distance(&self, point: DVec3, normal: DVec3, bias: &DepthBias) -> f64 {
         let Some(slopes) = self.depth_slopes(point, normal) else {

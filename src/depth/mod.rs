@@ -1,5 +1,7 @@
-//! How depth is tested: the bias that keeps shadow acne away, second depth and virtual samples, which need none, and splats for
-//! points.
+//! Depth tests: the bias that keeps shadow acne away, second depth and virtual samples, which need none, and splats for
+//! point clouds.
+//!
+//! The page `docs/depth.md` of the package compares the answers and derives the numbers.
 
 pub(crate) mod bias;
 mod normal_offset;

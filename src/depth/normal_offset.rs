@@ -8,45 +8,28 @@ use crate::math::bounds::most;
 use glam::{DVec2, DVec3};
 
 impl ShadowMap {
-    /// How far a receiver on a plane is to be moved along its normal before it is looked up, so that the plane does not shadow
-    /// itself: what `bias` does in depth, done in space, in world units.
+    /// How far to move a receiver along its normal before lookup, in world units, so that its plane has no shadow acne: `bias`
+    /// done in space instead of in depth.
     ///
-    /// It is for renderers that bias so (Holbert, *Normal Offset Shadows*, GDC 2011; Bevy's `shadow_normal_bias`, Unity's and
-    /// Godot's normal bias): casters are drawn and receivers tested without any other bias, and the receiver X at
-    /// X + d n. Engines that take a multiple of the texel's size take d over [`Footprint::longest`](crate::map::Footprint::longest). Unlike a
-    /// slope it stays small where the light grazes a surface, and moves shadows across instead of along.
+    /// It is for renderers that bias so (Holbert, *Normal Offset Shadows*, GDC 2011; Bevy's `shadow_normal_bias`, the normal
+    /// bias of Unity and Godot): casters are drawn and receivers tested without any other bias, and the receiver X is looked up at
+    /// X + d n. Engines that take a multiple of the texel's size take d over
+    /// [`Footprint::longest`](crate::map::Footprint::longest). Unlike a slope it stays small where the light grazes a surface, and
+    /// it moves shadows sideways. `docs/depth.md` derives it.
     ///
     /// `normal` may have any length and point to either side; the move is towards the light's side. Infinite outside of the map,
-    /// and where no distance does.
+    /// and where no distance suffices.
     ///
     /// ```
-    /// use shadowfit::{DepthFormat, Focus, Light, Scene, Settings, View};
-    ///
-    /// let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 50.0)?;
-    /// let sun = Light::directional((0.4, 1.0, 0.2))?;
-    /// let scene = Scene::from_box((-20.0, 0.0, -20.0), (20.0, 5.0, 20.0))?;
-    /// let focus = Focus::new(&view, &sun, &scene);
-    /// if let Some(map) = focus.fit(&Settings::default()).map() {
-    ///     let bias = map.bias(DepthFormat::Float32, 1.0)?;
-    ///     let ground = map.normal_offset([0.0, 0.0, -9.0], [0.0, 1.0, 0.0], &bias);
-    ///     let any = map.largest_normal_offset(&focus, &bias); // one number for all that is seen
-    ///     assert!(0.0 < ground && ground < any);
-    /// }
+    #[doc = include_str!("../examples/sun.txt")]
+    /// let bias = map.bias(DepthFormat::Float32, 1.0)?;
+    /// let of_ground = map.normal_offset(ground, up, &bias);
+    /// let any = map.largest_normal_offset(&focus, &bias); // one number for all receivers
+    /// assert!(0.0 < of_ground && of_ground < any);
     /// # Ok::<(), shadowfit::InputError>(())
     /// ```
-    ///
-    /// # Derivation
-    ///
-    /// With π the plane's row, of unit length and positive towards the light, the row e of depth is E + κ π, where κ = e·l/π·l and
-    /// E vanishes at l as the rows of place and w do: E/w is the plane's own depth at a place. A receiver d above the plane has
-    /// π = d, and so is nearer than the plane where it is looked up by
-    ///
-    /// ```text
-    ///     −κ d/(w + d wₙ)        wₙ how w changes along the normal
-    /// ```
-    ///
-    /// which is to be A + B/w: of the bias, A is the constant, the slope times that of the plane, and the receiver's part; B is what
-    /// goes with 1/w. It is linear in d.
+    #[doc(alias = "normal bias")]
+    #[doc(alias = "shadow_normal_bias")]
     #[must_use]
     pub fn normal_offset<F: Into<f64>, G: Into<f64>>(
         &self,
@@ -77,10 +60,17 @@ impl ShadowMap {
         if w.at(point) + offset * change_of_w > 0.0 { offset } else { f64::INFINITY }
     }
 
-    /// The most that [`Self::normal_offset`] is at a point, whatever the normal. Infinite outside of the map.
+    /// The largest [`Self::normal_offset`] at a point over all normals, in world units. Infinite outside of the map.
     ///
     /// At an angle θ between normal and light it is at most `a cos θ + b sin θ`, with b the slope times the longer side of a
     /// texel and a what the noise of depth takes along the ray, over what w may change by.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/sun.txt")]
+    /// let bias = map.bias(DepthFormat::Float32, 1.0)?;
+    /// assert!(map.normal_offset(ground, up, &bias) <= map.normal_offset_at(ground, &bias));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn normal_offset_at<F: Into<f64>>(&self, point: impl Into<[F; 3]>, bias: &DepthBias) -> f64 {
         let point = vector(point);
@@ -103,8 +93,16 @@ impl ShadowMap {
         if left > 0.5 { moved / left } else { f64::INFINITY }
     }
 
-    /// The largest [`Self::normal_offset_at`] over the vertices of R and the middles of its edges that are no nearer to the light than
-    /// its near distance: one number for all that is visible. `focus` is the one that the map was fitted from.
+    /// One normal offset for all receivers, in world units: the largest [`Self::normal_offset_at`] over the vertices of R and the
+    /// middles of its edges that are no nearer to the light than its near distance. `focus` is the one that the map was fitted from.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/sun.txt")]
+    /// let bias = map.bias(DepthFormat::Float32, 1.0)?;
+    /// let any = map.largest_normal_offset(&focus, &bias);
+    /// assert!(map.normal_offset_at(ground, &bias) <= any && any.is_finite());
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn largest_normal_offset(&self, focus: &Focus<'_>, bias: &DepthBias) -> f64 {
         let visible = focus.visible_beyond_light();

@@ -5,50 +5,31 @@ use crate::input::numbers::vector;
 use crate::map::shadow_map::ShadowMap;
 use glam::{DVec2, DVec3};
 
-/// What a ball or a disc covers of a map: the axis-aligned rectangle that it just fits into, in texels.
+/// The bounds of a ball or a disc in a map, for point clouds as casters: the axis-aligned rectangle that it just fits into,
+/// in texels ([`ShadowMap::splat`], [`ShadowMap::disc_splat`]).
 ///
-/// Coordinates count texels from the corner of the texture that its coordinates count from: they are texture coordinates
-/// times the map's sides, and the texel in column i and row j is the square from (i, j) to (i + 1, j + 1).
+/// Coordinates are texture coordinates times the map's sides: the texel in column i and row j is the square from (i, j) to
+/// (i + 1, j + 1). Each point of a cloud stands for a small disc of the surface it was taken from (Stamminger & Drettakis 2002,
+/// §5). Where discs cover a surface in the world, their rectangles cover it in the map: a square grid of points a distance s
+/// apart needs a radius of s/√2. A disc's depth is that of its plane, a ball's that of its centre. `docs/depth.md` has the
+/// rest: how wires stay whole, and how a shader discards what is in the rectangle but not in the disc.
 ///
-/// # Clouds without holes
-///
-/// Clouds of points cast through the same map as everything else (Stamminger & Drettakis 2002, §5): each point stands for
-/// a small disc of the surface it was taken from, and is drawn as the rectangle of its disc.
-///
-/// - Where the discs cover the surface in the world, their rectangles cover all that it covers of the map: a texel whose
-///   middle sees the surface is drawn. For a square grid of points a distance s apart the discs need a radius of s/√2.
-/// - Rectangles of [`Self::covering`] size each hold the middle of a texel, wherever they fall. A disc too small or too
-///   steep to hold one is drawn all the same, and discs that overlap in the world, as those along a wire do, draw texels
-///   that touch each other, at least with their corners: overlapping rectangles share a place in x and in y, so that in
-///   neither do whole texels lie between them.
-///
-/// # Discs, not rectangles
-///
-/// A rectangle holds more than its disc, most where a warp or a grazing light draws the disc out across the diagonal, and
-/// what lies there within the disc's plane casts too. The shader function `shadowfit_splat_corner` of the `wgsl` feature
-/// gives what it takes to discard that: where in the ellipse that the disc is in the map a fragment lies.
-///
-/// - A disc whose ellipse is 1.43 texels or more across where it is narrowest holds the middle of a texel wherever it
-///   falls. It draws just the texels whose middles it covers, as a polygon would, and discs that cover a surface still
-///   leave no hole in it.
-/// - A narrower ellipse is widened to that, which leaves all of a rectangle of [`Self::covering`]'s least size, so that a
-///   disc smaller than a texel is drawn as ever: each draws one texel at least. Towards the tips of an ellipse that is long
-///   and narrow besides, texels are left out that the rectangle has: wires that must not break are drawn as rectangles.
-///
-/// Of the points of an aerial survey, with 1024² texels, 4.4 % of the pixels were in false shadow of rectangles in a warped
-/// map and 1.2 % in a uniform one, and 0.23 % and 0.05 % are of discs.
-///
-/// # Depth
-///
-/// A disc's depth is that of its plane, which is a linear function of the place in the map, as depth is in any triangle:
-/// each texel then holds the depth of the surface there, and a bias by slope is right for it. A disc seen from its edge
-/// has no such function; the deepest reasonable one ends at a few times the depth that the disc itself spans. The depth
-/// of the centre alone would be wrong by the disc's radius times the slope, and the surface would shadow itself. For a
-/// ball it is its centre's depth. The shader function of the `wgsl` feature does so.
+/// ```
+#[doc = include_str!("../examples/sun.txt")]
+/// let disc = map.disc_splat(ground, up, 0.25).expect("in the map");
+/// let ball = map.splat(ground, 0.25).expect("in the map");
+/// assert!(disc.half.cmple(ball.half).all());
+/// assert!(disc.covering().half.min_element() > 0.5); // a texel or more across and down
+/// assert_eq!(disc.diameter(), 2.0 * disc.half.max_element());
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
+#[doc(alias = "point cloud")]
+#[doc(alias = "gl_PointSize")]
+#[doc(alias = "surfel")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Splat {
-    /// The middle of the rectangle. In a perspective map it is not where the middle of the ball or disc falls.
+    /// The middle of the rectangle. In a perspective map the middle of the ball or disc falls elsewhere.
     pub centre: DVec2,
     /// Half of its width and height.
     pub half: DVec2,
@@ -60,7 +41,7 @@ impl Splat {
     /// coordinates to f32.
     const LEAST_HALF: f64 = 0.5 + 1.0 / 256.0;
 
-    /// From where the values of two rows a over c begin to spread, and how.
+    /// The spans of the values of two rows a over c, from where they begin to spread, and how.
     ///
     /// The planes a − t·c that touch a ball about P are those whose value at P is the radius ρ times the length of their
     /// normal. With t = `place` + s, `place` = a·P/c·P, and the normals of a − `place`·c and of c, times ρ/c·P, as
@@ -80,16 +61,15 @@ impl Splat {
         Self { centre: DVec2::new(x, y) * sides - mixed * scale, half: half * scale }
     }
 
-    /// The rectangle grown to at least a texel across and down, so that it holds the middle of at least one texel
-    /// wherever it falls, also after a rasteriser has moved its corners to a grid of 256ths of a texel or finer.
+    /// The rectangle grown to at least a texel across and down, so that it holds the middle of at least one texel wherever it
+    /// falls, also after a rasteriser has moved its corners to a grid of 256ths of a texel or finer.
     #[must_use]
     pub fn covering(&self) -> Self {
         Self { half: self.half.max(DVec2::splat(Self::LEAST_HALF)), ..*self }
     }
 
-    /// The side of the square about [`Self::centre`] that holds the rectangle, in texels: the size to draw a point with
-    /// where an API has points (`gl_PointSize`, Vulkan's `PointSize`). A point of [`Self::covering`] size covers as the
-    /// rectangle does.
+    /// The size to draw a point with, where an API has points (`gl_PointSize`, Vulkan's `PointSize`): the side, in texels, of the
+    /// square about [`Self::centre`] that holds the rectangle. A point of [`Self::covering`] size covers as the rectangle does.
     #[must_use]
     pub fn diameter(&self) -> f64 {
         2.0 * self.half.max_element()
@@ -97,19 +77,36 @@ impl Splat {
 }
 
 impl ShadowMap {
-    /// The bounds of a ball in the map, its centre and radius in world space; they are exact, as balls and not as boxes.
+    /// The exact bounds in the map of a ball, given by its centre and radius in world space.
     ///
-    /// `None` where the ball reaches a point with w ≤ 0, as next to a lamp: a part of it is then infinitely far away in
+    /// `None` where the ball reaches a point with w ≤ 0, as next to a point light: a part of it is then infinitely far away in
     /// the map. Also `None` for numbers that are not finite and for a negative radius.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/spot.txt")]
+    /// let ball = map.splat(floor, 0.1).expect("in front of the spot");
+    /// let size = f64::from(settings.map_size());
+    /// assert!(ball.half.cmpgt(DVec3::ZERO.truncate()).all() && ball.centre.max_element() < size);
+    /// assert_eq!(map.splat(floor + 4.0 * up, 0.5), None); // around the spot
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn splat<F: Into<f64>>(&self, centre: impl Into<[F; 3]>, radius: f64) -> Option<Splat> {
         self.splat_across(vector(centre), radius, DVec3::ZERO)
     }
 
-    /// The bounds of a disc in the map, its centre and radius in world space, across `normal`, which may point to either
-    /// side and need not be unit length; they are exact.
+    /// The exact bounds in the map of a disc, given by its centre, normal and radius in world space. The normal may point to
+    /// either side and need not be unit length.
     ///
     /// `None` as for [`Self::splat`], and where the normal has no direction.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/sun.txt")]
+    /// let flat = map.disc_splat(ground, up, 0.25).expect("in the map");
+    /// assert_eq!(Some(flat), map.disc_splat(ground, -2.0 * up, 0.25));
+    /// assert_eq!(map.disc_splat(ground, DVec3::ZERO, 0.25), None);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn disc_splat<F: Into<f64>, G: Into<f64>>(
         &self,

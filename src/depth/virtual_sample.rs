@@ -1,57 +1,49 @@
-//! Virtual samples: a receiver's own plane, asked for its depth where a map was sampled.
+//! Virtual samples (receiver-plane depth): the depth of a receiver's plane at the centre of each texel that is read.
 
 use crate::convex::Plane;
 use crate::depth::tolerance::ComparisonTolerance;
 use crate::map::shadow_map::ShadowMap;
 use glam::{DVec2, DVec3};
 
-/// The least sine of the angle between the light and a plane for which the plane's slope is taken as it is: 1/256, a
-/// quarter of a degree. A matte surface at that angle has less than a step of 8 bits of the light's brightness, so that
-/// no shadow shows on it; and the slope, which has a pole where the light sees the plane from its edge, stays bounded.
+/// The least sine of the angle between light and plane for which the plane's slope is taken as it is: 1/256, a quarter of a
+/// degree. A matte surface at that angle has less than a step of 8 bits of the light's brightness, so that no shadow shows on
+/// it; and the slope, which has a pole where the light sees the plane from its edge, stays bounded.
 pub const MIN_SIN_INCIDENCE: f64 = 1.0 / 256.0;
 
-/// The tangent plane of a receiver, as a map sees it.
+/// The tangent plane of a receiver as a map sees it, for tests with virtual samples: no plane has shadow acne, without any
+/// bias.
 ///
-/// A filter compares the depth of one point with those stored for texels around it, each of which is right for its own
-/// centre only:
-///
-/// ```text
-///     depth │            ● stored for the plane itself, at texel centres
-///       ▲   │         ●  ┊
-///       │   │      ●──○  ┊        ○ the point: deeper than the left sample, so that
-///       │   │   ●  ┊  ┊  ┊          the plane would shadow itself there
-///       │   │   ┊  ┊  ┊  ┊
-///           └───┴──┴──┴──┴──▶ u
-/// ```
-///
-/// The virtual sample of a texel is the depth of the plane at the texel's centre. A projective map takes planes to planes,
-/// so that depth on it is an affine function of texture coordinates, and the comparison is exact for every map, warped
-/// or not:
+/// A filter compares one depth with those stored for texels around it, each of which is right for its own centre only. The
+/// virtual sample of a texel is the depth of the receiver's plane at the texel's centre (Wang & Molnar 1994, §3.3; elsewhere
+/// called receiver-plane depth). A projective map takes planes to planes, so that it is exact for every map, warped or not:
 ///
 /// ```text
 ///     z(u, v) = z₀ + (u − u₀) dz/du + (v − v₀) dz/dv
 /// ```
 ///
-/// With π the plane and M the matrix to texture space, the same plane there is π M⁻¹, and z = −(π₀u + π₁v + π₃)/π₂ (Wang
-/// & Molnar 1994, section 3.3). That needs the inverse, and in f32 the plane's distance from the origin costs digits. Here
-/// the depth at the point is what the matrix makes of it, and only the slopes come from the plane: with the gradients of u,
-/// v and z at the point, and n the normal, steps along the plane have n · dX = 0, so
+/// `docs/depth.md` has the slopes, and what virtual samples cannot know: triangles of less than a texel by a thousand, whose
+/// depth a rasteriser itself gets wrong.
 ///
-/// ```text
-///     dz/du = n · (∇z × ∇v) / n · (∇u × ∇v)      dz/dv = n · (∇u × ∇z) / n · (∇u × ∇v)
 /// ```
+#[doc = include_str!("../examples/sun.txt")]
+/// use shadowfit::depth::{Decision, TangentPlane};
 ///
-/// ∇u × ∇v points along the light's ray, so that the denominator vanishes where the light sees the plane from its edge,
-/// and only there; see [`MIN_SIN_INCIDENCE`].
+/// let plane = TangentPlane::new(&map, ground, up).expect("in the map");
+/// assert_eq!(plane.depth_at(plane.place()), plane.depth());
+/// assert!(plane.slopes().is_finite());
 ///
-/// # What they cannot know
-///
-/// They are as exact as what a rasteriser stores. Rasterisers set up the slopes of depth of a triangle in f32, with errors
-/// that grow with its length and over its width in texels: of strips like kerbs, 0.7 texels wide and a thousand long, the
-/// stored depth was found off by what it changes in a tenth of a texel, 25 times what [`RASTER_GRID`](crate::depth::RASTER_GRID) allows, and up to 0.18 %
-/// of a street shadowed itself (`render-check street --size 512 --filter virtual2`). Cut into 40 pieces along their length,
-/// the same strips did so nowhere. No tolerance is widened for them, as it would be for all: such triangles are better
-/// cut. Averaged over 3 × 3 texels the errors did not show.
+/// let tolerance = map.comparison_tolerance(DepthFormat::Float32, 1.0)?;
+/// let centre = |x: u32, y: u32| (DVec3::new(x.into(), y.into(), 0.0).truncate() + 0.5) / 2048.0;
+/// let own = plane.blended(&tolerance, |x, y| plane.depth_at(centre(x, y))); // the map holds the plane itself
+/// assert_eq!(own.share, 1.0);
+/// assert_eq!(plane.blended(&tolerance, |_, _| 0.0).rule, Decision::NonePass); // something next to the sun
+/// assert!(plane.tolerance(&tolerance) < 1e-4);
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
+#[doc(alias = "receiver plane depth bias")]
+#[doc(alias = "virtual samples")]
+#[doc(alias = "receiver-plane depth")]
+#[doc(alias = "RPDB")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentPlane {
     place: DVec2,
@@ -63,7 +55,7 @@ pub struct TangentPlane {
     reversed: bool,
 }
 
-/// How a comparison of several texels came out.
+/// Which rule decided a test of several texels (Wang & Molnar 1994, Fig. 10).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Decision {
@@ -75,7 +67,7 @@ pub enum Decision {
     VirtualSamples,
 }
 
-/// What a test against several texels says.
+/// The result of a test against several texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ShadowSample {
@@ -86,9 +78,20 @@ pub struct ShadowSample {
 }
 
 impl TangentPlane {
-    /// The plane through a point of a receiver across its normal, of any length and on either side, both in world space;
-    /// `None` where the point lies behind the map (w ≤ 0) or the plane has no direction: a normal that is zero or not
-    /// finite.
+    /// The plane through a point of a receiver across its normal, both in world space; the normal may have any length and point
+    /// to either side.
+    ///
+    /// `None` where the point lies behind the map (w ≤ 0) or the plane has no direction: a normal that is zero or not finite.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/spot.txt")]
+    /// use shadowfit::depth::TangentPlane;
+    ///
+    /// assert!(TangentPlane::new(&map, floor, up).is_some());
+    /// assert_eq!(TangentPlane::new(&map, floor, DVec3::ZERO), None);
+    /// assert_eq!(TangentPlane::new(&map, floor + 9.0 * up, up), None); // behind the spot
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn new(map: &ShadowMap, point: DVec3, normal: DVec3) -> Option<Self> {
         let clip = map.settings().clip();
@@ -108,7 +111,7 @@ impl TangentPlane {
         })
     }
 
-    /// Where the point lies in the map, in texture coordinates: [0, 1]² inside.
+    /// The place of the point in texture coordinates: [0, 1]² inside of the map.
     #[must_use]
     pub const fn place(&self) -> DVec2 {
         self.place
@@ -126,13 +129,23 @@ impl TangentPlane {
         self.slopes
     }
 
-    /// The depth of the plane at a place in texture coordinates.
+    /// The virtual sample: the depth of the plane at a place in texture coordinates.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/sun.txt")]
+    /// use shadowfit::depth::TangentPlane;
+    ///
+    /// let plane = TangentPlane::new(&map, ground, up).expect("in the map");
+    /// let beside = map.texture_from_world().project_point3(ground + DVec3::X); // elsewhere on the ground
+    /// assert!((plane.depth_at(beside.truncate()) - beside.z).abs() < 1e-9);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn depth_at(&self, place: DVec2) -> f64 {
         self.depth + self.slopes.dot(place - self.place)
     }
 
-    /// What a comparison allows for at the point.
+    /// The rounding that comparisons at the point allow for, where the depth range is 1.
     #[must_use]
     pub fn tolerance(&self, tolerance: &ComparisonTolerance) -> f64 {
         // In texels across.
@@ -142,7 +155,19 @@ impl TangentPlane {
 
     /// Tests the 2 × 2 texels around the point, blended by its distance from their centres, as a comparison sampler does.
     ///
-    /// `tolerance` is [`ShadowMap::comparison_tolerance`] for a reach of 1; `stored` is the depth that the map holds for a texel, by column and row in texture space, from 0 to one less than the map's width and height.
+    /// `tolerance` is [`ShadowMap::comparison_tolerance`] for a reach of 1. `stored` reads the map: the depth of a texel by its
+    /// column and row in texture space, from 0 to one less than the map's width and height.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/sun.txt")]
+    /// use shadowfit::depth::TangentPlane;
+    ///
+    /// let plane = TangentPlane::new(&map, ground, up).expect("in the map");
+    /// let tolerance = map.comparison_tolerance(DepthFormat::Float32, 1.0)?;
+    /// assert_eq!(plane.blended(&tolerance, |_, _| 1.0).share, 1.0); // a cleared map
+    /// assert_eq!(plane.blended(&tolerance, |_, _| 0.0).share, 0.0);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn blended(&self, tolerance: &ComparisonTolerance, stored: impl Fn(u32, u32) -> f64) -> ShadowSample {
         let corner = self.place * self.sides - 0.5;
@@ -155,7 +180,22 @@ impl TangentPlane {
     }
 
     /// Tests the `taps` × `taps` texels around the point, each counted alike: percentage-closer filtering (Reeves, Salesin
-    /// & Cook 1987). One tap is the nearest texel, at which the virtual sample always decides. None counts as one. `tolerance` is that for a reach of half of the taps.
+    /// & Cook 1987).
+    ///
+    /// One tap is the nearest texel, at which the virtual sample always decides; 0 counts as one. `tolerance` is that for a reach
+    /// of half of the taps, `stored` as for [`Self::blended`].
+    ///
+    /// ```
+    #[doc = include_str!("../examples/sun.txt")]
+    /// use shadowfit::depth::TangentPlane;
+    ///
+    /// let plane = TangentPlane::new(&map, ground, up).expect("in the map");
+    /// let tolerance = map.comparison_tolerance(DepthFormat::Float32, 1.5)?;
+    /// let middle = (plane.place().x * 2048.0) as u32;
+    /// let half = plane.mean(3, &tolerance, |x, _| if x < middle { 0.0 } else { 1.0 });
+    /// assert!((half.share - 2.0 / 3.0).abs() < 1e-12); // a shadow edge: one of three columns is dark
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn mean(
         &self,

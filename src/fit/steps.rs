@@ -47,7 +47,7 @@ pub(crate) fn fit_receivers(
     }
 }
 
-/// What all steps need.
+/// What all steps share.
 struct Fit<'a> {
     focus: &'a Focus<'a>,
     settings: &'a Settings,
@@ -86,15 +86,15 @@ struct Covered {
     ratio: Interval,
     /// How far they are from the origin, on each axis.
     reach: DVec3,
-    /// Half of what the image shows there, at most, in units of the map.
+    /// Half of the image's height at the receivers, at most, in units of the map.
     seen: f64,
 }
 
-/// What can cast into the window.
+/// The casters in the window.
 struct Casting {
     /// From the first caster to the last receiver.
     depth: Interval,
-    /// The nearest caster, along the axis.
+    /// The nearest caster's distance along the axis.
     nearest: f64,
     /// c is no less but for rounding.
     least_c: f64,
@@ -260,7 +260,7 @@ impl<'a> Fit<'a> {
         rounding
     }
 
-    /// Makes of `body` what can cast into the window.
+    /// Cuts `body` to the casters in the window.
     fn cut_casting(
         &self,
         map: &Homography,

@@ -1,4 +1,4 @@
-//! The aliasing of a map over all that is visible: the worst and the mean.
+//! The worst and the mean aliasing of a map over all receivers.
 
 use crate::convex::{ConvexBody, Plane, Polyhedron};
 use crate::focus::Focus;
@@ -8,58 +8,44 @@ use crate::map::shadow_map::ShadowMap;
 use crate::math::bounds::most;
 use glam::{DVec2, DVec3};
 
-/// The aliasing of a map over a body or several, see [`ShadowMap::aliasing`]; infinite where part of it lies outside of the map.
+/// Aliasing of a map over all receivers or some of them ([`ShadowMap::aliasing_over`]); infinite where part of them lies
+/// outside of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Aliasing {
-    /// The worst that was found: it is there at [`Self::worst_at`].
+    /// The worst that was found, at [`Self::worst_at`].
     #[cfg_attr(feature = "serde", serde(with = "crate::math::infinity"))]
     pub worst: f64,
-    /// Where.
+    /// Where the worst was found, in world space.
     pub worst_at: DVec3,
-    /// What it is at no point more than: 1 + 2⁻¹⁰ of the worst, and where that would take too long to find, as over a floor
-    /// that has much the same aliasing all over, 1 + 2⁻⁴ of it or more.
+    /// Upper bound on the aliasing anywhere in R: 1 + 2⁻¹⁰ times the worst. Where that would take too long, as over a floor that
+    /// has much the same aliasing all over, 1 + 2⁻⁴ times it or more.
     #[cfg_attr(feature = "serde", serde(with = "crate::math::infinity"))]
     pub upper_bound: f64,
-    /// The mean.
+    /// The mean over the volume of R, over the area of a flat R, or over the surfaces of listed receivers.
     #[cfg_attr(feature = "serde", serde(with = "crate::math::infinity"))]
     pub mean: f64,
 }
 
 impl ShadowMap {
-    /// The worst aliasing over R, anywhere in it, and the mean over its volume, or over the area of a flat R, the length
-    /// of a segment. `None` when nothing is visible. `focus` is the one that the map was fitted from, or one of the same
-    /// light whose R is a part of that: of a view that is [narrowed](crate::View::narrowed) to what a depth read-back
-    /// found, say.
+    /// The worst aliasing anywhere in R, and the mean over its volume (over the area of a flat R, the length of a segment).
+    /// `None` without receivers.
     ///
-    /// With l the light and c the covector that is w, a texel's longest side at X is
+    /// `focus` is the one that the map was fitted from, or one of the same light whose R is a part of it: of a view that is
+    /// [narrowed](crate::View::narrowed) to what a depth read-back found, say.
     ///
-    /// ```text
-    ///     c·X σ(X)/|X − l|      for a light at a position
-    ///     c·X σ(X)              for a light infinitely far away
+    /// ```
+    #[doc = include_str!("../examples/sun.txt")]
+    /// let aliasing = map.aliasing_over(&focus).expect("receivers");
+    /// assert!(aliasing.mean < aliasing.worst && aliasing.worst <= aliasing.upper_bound);
+    /// let there = map.aliasing(aliasing.worst_at).expect("in the map");
+    /// assert!((there / aliasing.worst - 1.0).abs() < 1e-6);
+    /// # Ok::<(), shadowfit::InputError>(())
     /// ```
     ///
-    /// with σ(X) the largest singular value of a matrix M(X) that is affine in X, which makes it convex. c and a pixel are
-    /// linear. So c/pixel is largest at a vertex of R, and so is σ, but aliasing need not be. It is for a light infinitely
-    /// far away where c is constant, as in a uniform map, or a multiple of depth, as in the paper's with the light across
-    /// the view; in its other maps of the sun the vertices have not been seen to fall short by more than rounding, nor
-    /// by more than some thousandths in random matrices, and yet a matrix can be made in which they do without bound.
-    /// For lights at a position they often do. A lamp over the middle of a long floor has its worst
-    /// right below itself, even in a uniform map seen from all over at one distance: texels are as long as the window
-    /// is, and the light sees that side foreshortened towards the ends, by the cosine of half its opening there.
-    ///
-    /// So R is searched. LinearDepth a ray aliasing is monotone, which leaves the faces of R. On a triangle with corners Xᵢ its
-    /// square is a fraction of two polynomials of degree four for each direction t of texels, and no more than the largest
-    /// fraction of their Bernstein coefficients, sums with the same weights of
-    ///
-    /// ```text
-    ///     cᵢ cⱼ (Mₖ t · Mₗ t)      and      pixelᵢ pixelⱼ (Xₖ − l) · (Xₗ − l)
-    /// ```
-    ///
-    /// The triangle is halved while that is more than what has been found. The corners alone decide in most maps.
-    ///
-    /// The mean is by quadrature, with a relative error below 1e-3. All of this takes a thousand times as long as a fit,
-    /// nearly all of it for the mean, and allocates nothing.
+    /// The worst need not be at a vertex of R, so R is searched; `docs/design.md` has the bound that the search relies on. The
+    /// mean is by quadrature, with a relative error below 1e-3. All of this takes a thousand times as long as a fit, nearly all
+    /// of it for the mean, and allocates nothing.
     #[must_use]
     pub fn aliasing_over(&self, focus: &Focus<'_>) -> Option<Aliasing> {
         let visible = focus.visible_beyond_light();
@@ -69,10 +55,21 @@ impl ShadowMap {
         survey.found(integral / measure)
     }
 
-    /// The same over some receivers only: what of each box is in view and lit. `None` when that is nothing.
+    /// The same over listed receivers only, the part of each box that is in view and lit. `None` where there is none.
     ///
-    /// The mean is over the surfaces of what there is of the boxes. Boxes that are segments or points count for the worst,
-    /// and for the mean, as one each, where there are no others.
+    /// The mean is over the surfaces of these parts. Boxes that are segments or points count for the worst, and for the mean, as
+    /// one each, where there are no others.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/sun.txt")]
+    /// use shadowfit::Aabb;
+    ///
+    /// let crates = [Aabb::new([-1.0, 0.0, -10.0], [1.0, 1.0, -9.0]), Aabb::new([0.0, 0.0, 90.0], [1.0, 1.0, 91.0])];
+    /// let of_crates = map.aliasing_over_receivers(&focus, &crates).expect("one is in view");
+    /// assert!(of_crates.worst <= map.aliasing_over(&focus).expect("receivers").upper_bound);
+    /// assert_eq!(map.aliasing_over_receivers(&focus, &crates[1..]), None);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn aliasing_over_receivers(&self, focus: &Focus<'_>, receivers: &[Aabb]) -> Option<Aliasing> {
         let mut survey = Survey::new(self);
@@ -99,7 +96,7 @@ impl ShadowMap {
 }
 
 impl Focus<'_> {
-    /// V ∩ L ∩ a box.
+    /// The part of a box that is in view and lit: V ∩ L ∩ box.
     fn visible_part(&self, part: &Aabb) -> ConvexBody {
         let (mut body, mut planes) = (Polyhedron::EMPTY, [Plane::ONE; Polyhedron::MAX_PLANES]);
         let region = Region::Box { min: part.min.as_dvec3(), max: part.max.as_dvec3() };
@@ -233,7 +230,16 @@ fn pixel(map: &ShadowMap, point: DVec3) -> f64 {
     2.0 * view.half_height(most(view.depth(point), view.near())) / f64::from(map.settings.image_height())
 }
 
-/// What aliasing is no more than on a triangle, and the edge to halve if that is too much.
+/// Upper bound on the aliasing on a triangle, and the edge to halve if that is too much.
+///
+/// With l the light, c the covector that is w and M(X) the matrix, affine in X, whose largest singular value times c·X/|X − l|
+/// is a texel's longest side: on a triangle with corners Xᵢ the square of aliasing is, for each direction t of texels, a
+/// fraction of two polynomials of degree four. It is no more than the largest fraction of their Bernstein coefficients, sums
+/// with the same weights of
+///
+/// ```text
+///     cᵢ cⱼ (Mₖ t · Mₗ t)      and      pixelᵢ pixelⱼ (Xₖ − l) · (Xₗ − l)
+/// ```
 fn bound(corners: &[Corner; 3]) -> (f64, (usize, usize)) {
     // The coefficients of both sides of the fraction, each times the same multinomial, by how often the first and the
     // second corner are in them.

@@ -1,4 +1,4 @@
-//! Integrals over bodies of what varies with the distances from the eye and from the light.
+//! Integrals over bodies of functions that vary with the distances from the eye and from the light.
 //!
 //! A body is cut into simplices, those into smaller ones until distances vary little over each, and a rule of degree five
 //! does the rest.
@@ -84,31 +84,32 @@ struct Cut {
     part: f64,
 }
 
-/// What distances may vary by over one simplex.
+/// The most that distances may vary by over one simplex.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fineness {
     /// The largest ratio of depths before the eye.
     pub(crate) depths: f64,
     /// The longest edge, in distances of the edge from the light.
     pub(crate) angle: f64,
-    /// What the rule over a simplex may be off from that over its halves, of itself; infinite for what is smooth.
+    /// The difference between the rule over a simplex and that over its halves, relative; infinite for smooth functions.
     pub(crate) error: f64,
 }
 
 impl Fineness {
-    /// For what goes with 1/depth², and an error of one part in a hundred thousand. The function 1/x on [1, 3/2] is analytic
-    /// within an ellipse whose axes sum to 9.9 times its half length, so that polynomials of degree 5 come within 9.9⁻⁶ or
-    /// so of it, one part in a million; on [1, 2] it is 5.8⁻⁶, one in forty thousand.
+    /// For smooth functions that go with 1/depth², to one part in a hundred thousand.
+    ///
+    /// The function 1/x on [1, 3/2] is analytic within an ellipse whose axes sum to 9.9 times its half length, so that polynomials
+    /// of degree 5 come within 9.9⁻⁶ or so of it, one part in a million; on [1, 2] it is 5.8⁻⁶, one in forty thousand.
     pub(crate) const FINE: Self = Self { depths: 1.5, angle: 1.0, error: f64::INFINITY };
-    /// For what has edges, as lengths of two have of which the longer counts, and one part in a thousand.
+    /// For functions with edges, as the longer of two lengths has, to one part in a thousand.
     pub(crate) const CHECKED: Self = Self { depths: 3.0, angle: 1.5, error: 1.0 / 2048.0 };
 }
 
-/// How a body is cut.
+/// How finely a body is cut.
 pub(crate) struct Grading {
     /// What a pixel's side is a multiple of.
     unit: Plane,
-    /// Below which rounding alone brings it.
+    /// The least unit; rounding alone brings it below that.
     least_unit: f64,
     perspective: bool,
     light: Option<DVec3>,

@@ -5,12 +5,12 @@ use crate::math::bounds::Interval;
 use crate::warp::rays::Rays;
 use crate::warp::rounding::QUIET;
 
-/// What lies where along the axis of a map.
+/// Distances along the axis of a map: of the receivers, and of the range of linear depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LinearDepth {
     /// Distance along the axis from the light or, when it is infinitely far away, from a point of the map's own.
     distance: Plane,
-    /// Where anything is visible.
+    /// Of the receivers.
     visible: Interval,
     /// The range of linear depth.
     range: Interval,
@@ -36,13 +36,13 @@ impl LinearDepth {
         (self.distance - Plane::ONE * self.range.min) * (self.range.max - self.range.min).recip()
     }
 
-    /// How much of a light at a position, (p, 1), to add to each visible point to bring it nearer by `distance` or more.
+    /// The g for which every receiver X, moved to X + g (p, 1), is nearer to a light at p by `distance` or more.
     ///
     /// X + g (p, 1) is the point X moved towards p by the part g/(1 + g) of its distance D: h/(D − h) moves it by h. D is at
-    /// least the distance a along the axis, and the chord of the convex function h/(a − h) over all that is visible lies
-    /// above it. Exact at both ends, on the axis; a constant g would be too much by the ratio of the ends at the far one.
+    /// least the distance a along the axis, and the chord of the convex function h/(a − h) over all receivers lies above it.
+    /// Exact at both ends, on the axis; a constant g would be too much by the ratio of the ends at the far one.
     ///
-    /// No point is moved by more than half of what the nearest is away, along the axis.
+    /// No point is moved by more than half of the nearest receiver's distance along the axis.
     pub(crate) fn part_of_light(&self, distance: f64) -> Plane {
         let (near, far) = (self.visible.min, self.visible.max);
         let h = distance.min(0.5 * near);

@@ -1,4 +1,4 @@
-//! The limit: the least worst aliasing that any spread of the same texels over the light's rays could have.
+//! The lower bound on aliasing: the least worst aliasing of any parameterization of the light's rays with as many texels.
 
 use crate::focus::Focus;
 use crate::input::view::Lens;
@@ -8,34 +8,23 @@ use crate::settings::Settings;
 use glam::{DVec2, DVec3};
 
 impl Focus<'_> {
-    /// The least worst aliasing over R that any spread whatever of the settings' N texels, width times height, could have,
-    /// warped, split or bent as it likes: what the aliasing of a map is to be held against. All of the map counts, its border
-    /// too. 0 where nothing is visible, or where the light sees R from its edge.
+    /// Lower bound on the worst aliasing over R for any parameterization with the settings' number of texels, warped, split or
+    /// bent: what the aliasing of a map is to be compared with. 0 where nothing is in view and lit, or where the light sees R from
+    /// its edge.
     ///
-    /// A texel whose longest side is t pixels wherever its rays meet R covers no more than t² pixel² of area across them.
-    /// So N texels cannot do with less t than
-    ///
-    /// ```text
-    ///     limit² = 1/N ∫ dA⊥/pixel²      over the rays that meet R, each where it has the most dA⊥/pixel² in R
+    /// ```
+    #[doc = include_str!("../examples/sun.txt")]
+    /// let map = focus.fit(&settings).into_map().expect("as before");
+    /// let (found, bound) = (map.aliasing_over(&focus).expect("receivers").worst, focus.aliasing_lower_bound(&settings));
+    /// assert!(0.0 < bound && bound < found);
+    /// # Ok::<(), shadowfit::InputError>(())
     /// ```
     ///
-    /// and texels that are squares of `limit` pixels everywhere, which no one matrix makes, would just do (the bound on
-    /// parameterisations of Lloyd, Tuft, Yoon & Manocha 2006, ln(f/n) for light from overhead, for any R and any light).
-    ///
-    /// Where in R is it most? Let C₃ be the row that pixels are multiples of (depth before the eye, or 1 for parallel
-    /// lines of sight), and d the ray's direction away from the light. For a light at a position p, X = p + r d has
-    /// dA⊥ = r² dω and so
-    ///
-    /// ```text
-    ///     √dA⊥/pixel ∝ r/(C₃·l + r C₃·d) = 1/(C₃·l/r + C₃·d)
-    /// ```
-    ///
-    /// which grows with r where C₃·l > 0 and falls where C₃·l < 0. For a light infinitely far away dA⊥ is the same all
-    /// along, and depth falls along the ray where C₃·l = −C₃·d > 0. Either way the end of the ray decides, the one
-    /// away from the light where λw = C₃·l > 0 and the one towards it where λw < 0, the same for all rays. The integral
-    /// is one over the faces of R on that side.
-    ///
-    /// Its relative error is below 1e-5, by quadrature. It takes a hundred times as long as a fit and allocates nothing.
+    /// Texels that are squares of `bound` pixels everywhere would just do; no single matrix makes them. It is the bound of
+    /// Lloyd, Tuft, Yoon & Manocha (2006), ln(f/n) for light from overhead, for any R and any light. `docs/design.md` derives
+    /// it. By quadrature, with a relative error below 1e-5; a hundred times the cost of a fit, without allocation.
+    #[doc(alias = "optimal parameterization")]
+    #[doc(alias = "limit")]
     #[must_use]
     pub fn aliasing_lower_bound(&self, settings: &Settings) -> f64 {
         let (view, visible) = (self.view(), self.receiver_volume());

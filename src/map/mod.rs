@@ -1,4 +1,6 @@
-//! A fitted map, and what it costs and gives: texel footprints, aliasing, depth resolution.
+//! A fitted map and what it resolves: texel footprints, aliasing, depth resolution.
+//!
+//! The methods of [`ShadowMap`](crate::ShadowMap) are listed by topic on its page.
 
 pub(crate) mod aliasing;
 mod integral;

@@ -1,10 +1,19 @@
-//! What a matrix gives: texel footprints, slopes and depth resolution.
+//! What a matrix resolves: texel footprints, slopes of depth and depth resolution.
 
 use crate::convex::Plane;
 use core::ops::RangeInclusive;
 use glam::{DVec2, DVec3};
 
-/// What one texel covers at a point: a parallelogram across the ray from the light.
+/// The patch that one texel covers at a point: a parallelogram across the light's ray ([`ShadowMap::footprint`](crate::ShadowMap::footprint)).
+///
+/// ```
+/// use shadowfit::{glam::DVec3, map::Footprint};
+///
+/// let texel = Footprint { along_x: DVec3::new(0.2, 0.0, 0.0), along_y: DVec3::new(0.0, 0.0, 0.1) };
+/// assert!((texel.longest() - 0.2).abs() < 1e-15 && (texel.shortest() - 0.1).abs() < 1e-15);
+/// assert!((texel.area() - 0.02).abs() < 1e-15);
+/// ```
+#[doc(alias = "texel")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Footprint {
@@ -21,14 +30,14 @@ impl Footprint {
         self.along_x.cross(self.along_y).length()
     }
 
-    /// The longest semi-axis, doubled, of the ellipse that the map makes of a texel's inscribed circle: the side of the
-    /// footprint where it is longest, in world units. It is the larger singular value of (along x, along y).
+    /// The side of the footprint where it is longest, in world units: the larger singular value of (along x, along y), which is
+    /// twice the longer semi-axis of the ellipse that the map makes of a texel's inscribed circle.
     #[must_use]
     pub fn longest(&self) -> f64 {
         self.singular_values().0
     }
 
-    /// The shortest side, the smaller singular value, in world units.
+    /// The side where it is shortest, in world units: the smaller singular value.
     #[must_use]
     pub fn shortest(&self) -> f64 {
         self.singular_values().1
@@ -44,12 +53,15 @@ impl Footprint {
     }
 }
 
-/// A format that depth is stored in.
+/// The format of a depth buffer, which decides how finely depth is resolved.
+#[doc(alias = "Depth24Plus")]
+#[doc(alias = "Depth32Float")]
+#[doc(alias = "Depth16Unorm")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum DepthFormat {
-    /// 8-bit unsigned normalised: 255 equal steps from 0 to 1. No card has depth buffers of it; it is what a colour channel
-    /// holds, in maps that a shader writes (Brabec, Annen & Seidel 2002; Kilgard 2000 for cards without depth textures).
+    /// 8-bit unsigned normalised: 255 equal steps from 0 to 1. No card has depth buffers of it; a colour channel holds it, in
+    /// maps that a shader writes (Brabec, Annen & Seidel 2002; Kilgard 2000 for cards without depth textures).
     Unorm8,
     /// 16-bit unsigned normalised: 65,535 equal steps from 0 to 1.
     Unorm16,
@@ -60,7 +72,14 @@ pub enum DepthFormat {
 }
 
 impl DepthFormat {
-    /// The step from a value in [0, 1] to the next larger one.
+    /// The step from a depth in [0, 1] to the next larger one that the format holds.
+    ///
+    /// ```
+    /// use shadowfit::DepthFormat;
+    ///
+    /// assert_eq!(DepthFormat::Unorm16.step(0.5), 1.0 / 65_535.0);
+    /// assert!(DepthFormat::Float32.step(0.01) < DepthFormat::Float32.step(0.9));
+    /// ```
     #[must_use]
     pub fn step(self, value: f64) -> f64 {
         match self {
@@ -74,12 +93,20 @@ impl DepthFormat {
         }
     }
 
-    /// The depth of one unit of constant bias, at least and at most, in a triangle whose largest depth as stored is
-    /// `largest`: wgpu's and Vulkan's r, `glPolygonOffset`'s r, Direct3D's `DepthBias` of 1.
+    /// The depth of one unit of constant bias, at least and at most, in a triangle whose largest depth as stored is `largest`:
+    /// r of wgpu, Vulkan and `glPolygonOffset`, a `DepthBias` of 1 in Direct3D.
     ///
-    /// In fixed point of n bits a unit is 2⁻ⁿ in Direct3D, a hair less than a step of the format, and a driver of Vulkan
-    /// may take twice that (Mesa's software driver takes two steps). In floating point it is 2^(e − 23) with e the exponent
-    /// of `largest`: below 1, where depth is stored, at most 2⁻²⁴, and next to nothing near 0.
+    /// In fixed point of n bits a unit is 2⁻ⁿ in Direct3D, a hair less than a step of the format, and a Vulkan driver may take
+    /// twice that (Mesa's software driver takes two steps). In floating point it is 2^(e − 23) with e the exponent of `largest`:
+    /// below 1, where depth is stored, at most 2⁻²⁴, and next to nothing near 0.
+    ///
+    /// ```
+    /// use shadowfit::DepthFormat;
+    ///
+    /// let unit = DepthFormat::Float32.bias_unit(0.75); // the exponent of 0.75 is −1
+    /// assert_eq!(*unit.end(), 0.5_f64.powi(24));
+    /// assert!(DepthFormat::Unorm24.bias_unit(0.75).contains(&DepthFormat::Unorm24.step(0.75)));
+    /// ```
     #[must_use]
     pub fn bias_unit(self, largest: f64) -> RangeInclusive<f64> {
         let fixed = |values: f64| values.recip()..=2.0 * self.step(1.0);

@@ -1,35 +1,39 @@
-//! Offsets of receivers, folded into the matrix that they are tested with.
+//! Receiver offsets, folded into the matrix that receivers are tested with.
 
 use crate::convex::Plane;
 use crate::error::{Expected, InputError, MAX_COORDINATE, check};
 use crate::map::linear_depth::LinearDepth;
 use glam::DVec4;
 
-/// How much nearer to the light receivers are tested than they are.
+/// How much nearer to the light receivers are tested than they are: a bias on the receiver's side, folded into its matrix
+/// ([`ShadowMap::receiver_matrix_with`](crate::ShadowMap::receiver_matrix_with)).
 ///
-/// With e the row of depth, c that of w and l the light, c·l = 0 and so for any number or affine function g
+/// It costs nothing at run time, is exact whatever the warp, and covers what a rasteriser's slope-scaled bias cannot:
+/// rounding, curved facets, creases. `docs/depth.md` derives it.
 ///
-/// ```text
-///     e·(X + g l)   e·X + g e·l
-///     ----------- = -----------         a = a·(X + g l), likewise b: (u, v) stay
-///     c·(X + g l)       c·X
+/// | offset | moves a receiver towards the light by |
+/// |---|---|
+/// | [`ReceiverOffset::world`], directional light | h world units |
+/// | [`ReceiverOffset::world`], light at a position | h world units or more, for every receiver |
+/// | [`ReceiverOffset::relative`] | k/(1 + k) of its distance; k world units under a directional light |
+/// | [`ReceiverOffset::depth`], [`ReceiverOffset::and_depth`] | what changes its depth by β |
+///
+/// The depth that k takes off goes with 1/w, as rounding in f32 does. Negative numbers move receivers away. Offsets are given
+/// as if depth grew away from the light, 0 to 1; reversed depth and depth from −1 are taken care of.
+///
 /// ```
+#[doc = include_str!("../examples/sun.txt")]
+/// use shadowfit::depth::ReceiverOffset;
 ///
-/// so that the row e + (e·l) g gives a point the depth that X + g l has: exactly that of a point on the same ray nearer to
-/// the light, whatever the warp. An offset costs nothing at run time, and where a rasteriser's bias knows the slope of the
-/// caster alone, it may be what a slope cannot cover: rounding, curved facets, creases.
-///
-/// | offset | g | moves a receiver towards the light by |
-/// |---|---|---|
-/// | [`ReceiverOffset::world`], directional light | h | h world units |
-/// | [`ReceiverOffset::world`], light at a position | a chord of h/(a − h) | h world units or more, wherever something is visible |
-/// | [`ReceiverOffset::relative`] | k | k/(1 + k) of its distance; k world units under a directional light |
-/// | [`ReceiverOffset::depth`], [`ReceiverOffset::and_depth`] | | what changes its depth by β: the row is e − β c |
-///
-/// As rounding in f32 does, the depth that k takes off goes with 1/w.
-///
-/// Negative numbers move receivers away. Reversed depth and depth from −1 are taken care of: offsets are given as if depth
-/// grew away from the light, 0 to 1.
+/// let place = map.texture_from_world().project_point3(ground);
+/// for offset in [ReceiverOffset::world(0.1)?, ReceiverOffset::relative(0.1)?, ReceiverOffset::depth(0.01)?] {
+///     let moved = map.texture_from_world_with(&offset).project_point3(ground);
+///     assert!((moved - place).truncate().length() < 1e-12 && moved.z < place.z);
+/// }
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
+#[doc(alias = "receiver bias")]
+#[doc(alias = "depth offset")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -49,46 +53,90 @@ enum Towards {
 }
 
 impl ReceiverOffset {
-    /// Towards the light by `distance` world units.
+    /// Moves receivers towards the light by `distance` world units.
     ///
-    /// A light at a position moves no two receivers along parallel rays, and no matrix moves them all by one distance:
-    /// every visible one is moved by at least so much, and those nearest to the light and farthest from it, on the axis of
-    /// the map, by just so much. None is moved by more than half of what the nearest is away from the light.
+    /// Local lights have no parallel rays, and no matrix moves all receivers by one distance: every receiver is moved by at least
+    /// so much, and those nearest to the light and farthest from it, on the axis of the map, by just so much. None is moved by
+    /// more than half of the nearest receiver's distance.
     ///
     /// # Errors
     ///
     /// Names `"distance"` when it is not finite or too large.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/sun.txt")]
+    /// use shadowfit::depth::ReceiverOffset;
+    ///
+    /// let moved = map.texture_from_world_with(&ReceiverOffset::world(0.1)?).project_point3(ground);
+    /// let nearer = map.texture_from_world().project_point3(ground + 0.1 * sun.direction_from(ground));
+    /// assert!((moved - nearer).length() < 1e-9);
+    /// assert!(ReceiverOffset::world(f64::NAN).is_err());
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     pub fn world(distance: f64) -> Result<Self, InputError> {
         Ok(Self { towards: Towards::World(check::coordinate("distance", distance)?), depth: 0.0 })
     }
 
-    /// To the homogeneous point X + `part` · l, see [`Light::homogeneous`](crate::Light::homogeneous): towards a light at
-    /// a position by `part`/(1 + `part`) of the distance to it, which grows with distance as footprints of texels do, the
-    /// form for lamps. The unit of a directional light, which has no distance, is the world's: there it is the same as
-    /// [`Self::world`].
+    /// Moves receivers by a part of their distance to the light: to the homogeneous point X + `part` · l, with l as
+    /// [`Light::homogeneous`](crate::Light::homogeneous) gives it.
+    ///
+    /// Under a light at a position that is `part`/(1 + `part`) of the distance, which grows with distance as footprints of texels
+    /// do: the form for point lights and spots. A directional light has no distance, and its unit is the world's: there it is the
+    /// same as [`Self::world`].
     ///
     /// # Errors
     ///
     /// Names `"part"` when it is not finite, too large, or less than −1/2: from −1 on there is no such point.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/spot.txt")]
+    /// use shadowfit::depth::ReceiverOffset;
+    ///
+    /// let moved = map.texture_from_world_with(&ReceiverOffset::relative(0.25)?).project_point3(floor);
+    /// let light = spot.position().expect("a spot has one");
+    /// let nearer = map.texture_from_world().project_point3(floor.lerp(light, 0.2)); // 0.25/1.25
+    /// assert!((moved - nearer).length() < 1e-9);
+    /// assert!(ReceiverOffset::relative(-1.0).is_err());
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     pub fn relative(part: f64) -> Result<Self, InputError> {
         let part = check::within("part", part, Expected::Within { least: -0.5, most: MAX_COORDINATE })?;
         Ok(Self::of(part, 0.0))
     }
 
-    /// Nearer by `depth`, where the depth range is 1.
+    /// Takes `depth` off the depth of receivers, where the depth range is 1.
     ///
     /// # Errors
     ///
     /// Names `"depth"` when it is not finite or too large.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/sun.txt")]
+    /// use shadowfit::depth::ReceiverOffset;
+    ///
+    /// let place = map.texture_from_world().project_point3(ground);
+    /// let moved = map.texture_from_world_with(&ReceiverOffset::depth(0.001)?).project_point3(ground);
+    /// assert!((place.z - moved.z - 0.001).abs() < 1e-12);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     pub fn depth(depth: f64) -> Result<Self, InputError> {
         Self::of(0.0, 0.0).and_depth(depth)
     }
 
-    /// The same, and then nearer by `depth`, where the depth range is 1.
+    /// The same offset, and `depth` taken off besides, where the depth range is 1.
     ///
     /// # Errors
     ///
     /// Names `"depth"` when it is not finite or too large.
+    ///
+    /// ```
+    /// use shadowfit::depth::ReceiverOffset;
+    ///
+    /// let offset = ReceiverOffset::relative(0.01)?.and_depth(0.001)?;
+    /// assert_ne!(offset, ReceiverOffset::relative(0.01)?);
+    /// assert_eq!(offset.and_depth(-0.001)?, ReceiverOffset::relative(0.01)?);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     pub fn and_depth(self, depth: f64) -> Result<Self, InputError> {
         Ok(Self { depth: check::coordinate("depth", self.depth + depth)?, ..self })
     }

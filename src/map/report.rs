@@ -1,4 +1,4 @@
-//! Everything that a fitted map costs and gives, in one struct.
+//! All that a fitted map costs and resolves, in one struct.
 
 use crate::focus::Focus;
 use crate::map::quality::DepthFormat;
@@ -8,7 +8,7 @@ use crate::settings::fallback::WarpFallback;
 use crate::warp::{LightClass, VirtualCamera, classify};
 use glam::DVec3;
 
-/// Everything there is to know about a fitted map.
+/// All that a fitted map costs and resolves ([`ShadowMap::report`]).
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Report {
@@ -28,7 +28,7 @@ pub struct Report {
     pub window: Window,
     /// What depth covers.
     pub depth: DepthSpan,
-    /// The part of it that lies in the air beside a light at a position, see [`ShadowMap::depth_beside_light`].
+    /// The part of the depth range spent on points next to a local light, see [`ShadowMap::depth_beside_light`].
     pub depth_beside_light: f64,
     /// The longest side of a texel's footprint over the vertices of R, in world units.
     pub texel: f64,
@@ -41,8 +41,8 @@ pub struct Report {
     pub linear_depth_resolution: DepthResolution,
 }
 
-/// What each depth format resolves, in world units along a ray from the light; infinite where something visible lies
-/// outside of the map.
+/// The world distance along the light's ray that one step of each depth format makes; infinite where a receiver lies outside
+/// of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DepthResolution {
@@ -72,7 +72,16 @@ impl DepthResolution {
 }
 
 impl ShadowMap {
-    /// The whole report. `focus` is the one that the map was fitted from.
+    /// The full report of the map over the vertices of R. `focus` is the one that the map was fitted from.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/sun.txt")]
+    /// let report = map.report(&focus);
+    /// assert_eq!(report.fallback, None);
+    /// assert!(report.aliasing <= map.aliasing_over(&focus).expect("receivers").upper_bound);
+    /// assert!(report.depth_resolution.float32 < report.depth_resolution.unorm16);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn report(&self, focus: &Focus<'_>) -> Report {
         let visible = focus.visible_beyond_light();

@@ -1,4 +1,4 @@
-//! Meshes: whether they are watertight, which decides how their depth is tested, and tessellation for paraboloid maps.
+//! Meshes: whether they are watertight, which decides their depth test, and tessellation for paraboloid maps.
 
 mod solidity;
 #[cfg(feature = "spade")]

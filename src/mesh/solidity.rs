@@ -1,4 +1,4 @@
-//! Whether a mesh is a solid, a solid turned inside out, or a sheet.
+//! Whether a mesh is watertight, inverted or open.
 
 extern crate alloc;
 
@@ -7,31 +7,35 @@ use crate::input::numbers::vector;
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// What a mesh encloses, which decides the faces that a second-depth map is drawn with.
+/// Whether a mesh encloses a volume, which decides the faces that a second-depth map is drawn with.
 ///
-/// A mesh is **closed** where each edge is run along as often in one direction as in the other: its surface is a cycle,
-/// and a ray that comes from outside and goes on for ever leaves as often as it enters. That is all that culling needs.
-/// A mesh with two faces on every edge, wound alike, is closed; so are two boxes that touch along an edge, which then
-/// has four. Vertices count as one where their positions are equal to the last bit (0 and −0 are equal), since meshes
-/// have several vertices in one place for normals or textures that differ.
+/// A mesh is **closed** where each edge is run along as often in one direction as in the other: a ray that comes from outside
+/// and goes on for ever leaves as often as it enters, which is all that culling needs. A mesh with two faces on every edge,
+/// wound alike, is closed; so are two boxes that touch along an edge, which then has four. Vertices count as one where their
+/// positions are equal to the last bit (0 and −0 are equal), since meshes have several vertices in one place for normals or
+/// textures that differ.
+#[doc(alias = "watertight")]
+#[doc(alias = "manifold")]
+#[doc(alias = "closed mesh")]
+#[doc(alias = "two-manifold")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Solidity {
-    /// Closed, and the fronts of its triangles, counter-clockwise, look outwards.
+    /// Closed, with the fronts of its triangles (counter-clockwise) outwards.
     Watertight,
-    /// Closed, and the fronts look inwards.
+    /// Closed, with the fronts inwards.
     Inverted,
-    /// A sheet, or a mesh with a hole, or one that is not wound alike: it has no inside.
+    /// An open sheet, a mesh with a hole, or one with inconsistent winding: it has no inside.
     Open,
 }
 
-/// What was found of a mesh.
+/// The result of [`Solidity::of`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SolidityReport {
     /// The verdict on all of it. A mesh is culled as a whole, so one open part makes it open.
     pub solidity: Solidity,
-    /// Parts that share no vertex.
+    /// The number of parts that share no vertex.
     pub parts: usize,
     /// Closed parts whose fronts look the other way than the whole mesh's, and which are no cavities: their box lies in
     /// no box of a part that looks the right way. With any of these the mesh is open.
@@ -48,7 +52,7 @@ pub struct SolidityReport {
     /// Triangles without area, exactly: a corner twice, or three in a line. One in a line may close the crack at a
     /// T-junction, so their edges count like all others.
     pub without_area: usize,
-    /// Its shape as a sheet, where it is open.
+    /// Its shape where it is open.
     pub sheet: Option<OpenShape>,
 }
 
@@ -65,16 +69,15 @@ pub struct OpenShape {
 }
 
 impl Solidity {
-    /// What a mesh is: positions, and triangles as indices into them, counter-clockwise seen from the front.
+    /// Classifies a mesh: positions, and triangles as indices into them, counter-clockwise seen from the front.
     ///
     /// Only the positions that the triangles use are looked at, so that the triangles of an object can be given with the
     /// positions of a whole scene. It takes `O(n log n)` for n triangles, and memory for them: once for a mesh, when it
     /// is loaded. Moving, turning and scaling a mesh changes nothing; mirroring it exchanges [`Self::Watertight`] and
     /// [`Self::Inverted`].
     ///
-    /// A part that crosses itself or another is taken for what its winding says. Every triangle counts: one that is there
-    /// twice, or one without area that hangs on an edge, leaves edges that do not close. Files have such triangles, and who
-    /// loads them does well to drop them first.
+    /// A part that crosses itself or another is classified by its winding. Every triangle counts: one that is there twice, or one
+    /// without area that hangs on an edge, leaves edges that do not close. Drop such triangles when a file is loaded.
     ///
     /// # Errors
     ///
@@ -120,7 +123,7 @@ impl Solidity {
     }
 }
 
-/// Triangles over vertices that are each there once.
+/// Triangles over welded vertices, each position once.
 struct Faces {
     points: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,

@@ -1,4 +1,4 @@
-//! Meshes cut so finely that a light sees every edge under a small angle.
+//! Tessellation for paraboloid maps: meshes cut so finely that a light sees every edge under a small angle.
 
 use crate::error::{InputError, InputErrorKind, check};
 use crate::input::numbers::vector;
@@ -10,26 +10,25 @@ use std::collections::{BinaryHeap, HashMap};
 use std::ops::Range;
 use std::vec::Vec;
 
-/// Cuts triangles until a light at a position sees none of their edges under more than an angle: what a paraboloid map
-/// needs, whose triangles have straight edges where the mesh's are arcs
-/// ([`Paraboloid::largest_edge`](crate::omni::Paraboloid::largest_edge)).
+/// Cuts triangles until a light at a position sees none of their edges under more than an angle, as a paraboloid map needs
+/// it: it draws straight edges where the mesh's are arcs ([`Paraboloid::largest_edge`](crate::omni::Paraboloid::largest_edge)).
 ///
 /// ```text
 ///     ∗ light                       an edge is cut into as many parts as it takes, of equal angles from the
-///     |\ \  \                       light, by a rule that knows nothing but its two ends: what lies on both
-///     | \  \   \                    sides of it is cut at the same points, to the last bit, whether the
-///     |  \   \     \                triangles share vertices or have vertices of their own at the same places
+///     |\ \  \                       light, by a rule that depends on its two ends only: triangles on both
+///     | \  \   \                    sides of it are cut at the same points, to the last bit, whether they
+///     |  \   \     \                share vertices or have vertices of their own at the same places
 ///     ●---○----○-------● edge
 /// ```
 ///
-/// Inside of a triangle the longest edge by angle is halved until none is too long; the triangulation is Delaunay's all the
-/// while (by spade, with exact predicates).
+/// Inside of a triangle the longest edge by angle is halved until none is too long; the triangulation is Delaunay's throughout
+/// (by spade, with exact predicates).
 ///
 /// # Guarantees
 ///
 /// - Every edge is seen under at most the angle, but for edges with both ends nearer to the light than its near
 ///   distance, where nothing casts, and for those no longer than a step or two of 2⁻⁴⁰ of the triangle they are in.
-/// - No vertex lies on an edge of another triangle that did not lie there before: what was closed stays closed.
+/// - No vertex lies on an edge of another triangle that did not lie there before: a closed mesh stays closed.
 /// - Triangles keep their side, and those that need no cut are left as they are.
 /// - Triangles without area are cut as their edges are, so that they still close what they closed.
 ///
@@ -38,11 +37,15 @@ use std::vec::Vec;
 /// use shadowfit::glam::DVec3;
 ///
 /// let floor = [DVec3::new(-4.0, 0.0, -4.0), DVec3::new(0.0, 0.0, 4.0), DVec3::new(4.0, 0.0, -4.0)];
-/// let refined = Tessellator::new((0.0, 2.0, 0.0), 0.1, 0.5)?.tessellate(&floor, &[[0, 1, 2]])?;
-/// let positions: Vec<_> = floor.into_iter().chain(refined.added.iter().map(|added| added.position)).collect();
-/// println!("{} triangles of {} vertices", refined.triangles.len(), positions.len());
+/// let fine = Tessellator::new((0.0, 2.0, 0.0), 0.1, 0.5)?.tessellate(&floor, &[[0, 1, 2]])?;
+/// let positions: Vec<_> = floor.into_iter().chain(fine.added.iter().map(|added| added.position)).collect();
+/// assert!(fine.triangles.len() > 1 && fine.sources.iter().all(|&source| source == 0));
+/// assert!(fine.triangles.iter().flatten().all(|&index| (index as usize) < positions.len()));
 /// # Ok::<(), shadowfit::InputError>(())
 /// ```
+#[doc(alias = "subdivide")]
+#[doc(alias = "refine")]
+#[doc(alias = "tessellation")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tessellator {
     light: DVec3,
@@ -51,7 +54,7 @@ pub struct Tessellator {
     limit: usize,
 }
 
-/// A refined mesh. Its vertices are those of the mesh it was made from, in their order, and after them `added`.
+/// A tessellated mesh: its vertices are those of the original mesh, in their order, and after them `added`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tessellation {
     /// The new vertices.
@@ -62,7 +65,7 @@ pub struct Tessellation {
     pub sources: Vec<u32>,
 }
 
-/// A new vertex.
+/// A vertex that tessellation added.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NewVertex {
@@ -75,16 +78,23 @@ pub struct NewVertex {
 }
 
 impl Tessellator {
-    /// The most triangles that come out, unless [`Self::with_limit`] says otherwise: 2²⁰.
+    /// The default limit on the number of resulting triangles, 2²⁰; see [`Self::with_limit`].
     pub const DEFAULT_LIMIT: u32 = 1 << 20;
 
-    /// For a light at a position, with the distance from it within which nothing casts, in world units, and the angle in
-    /// radians that edges may have.
+    /// A tessellator for a light at a position, the distance from it within which nothing casts, in world units, and the largest
+    /// angle of edges, in radians.
     ///
     /// # Errors
     ///
     /// Names the field that is not finite or too large, `"near"` when it is not positive, and `"angle"` when it is not
     /// positive or more than a right angle.
+    ///
+    /// ```
+    /// use shadowfit::mesh::Tessellator;
+    ///
+    /// assert!(Tessellator::new((0.0, 2.0, 0.0), 0.1, 0.5).is_ok());
+    /// assert!(Tessellator::new((0.0, 2.0, 0.0), 0.1, 90.0).is_err()); // radians
+    /// ```
     pub fn new<F: Into<f64>>(light: impl Into<[F; 3]>, near: f64, angle: f64) -> Result<Self, InputError> {
         let light = check::point("light", vector(light))?;
         let near = check::distance("near", near)?;
@@ -94,7 +104,16 @@ impl Tessellator {
         Ok(Self { light, near, angle, limit: Self::DEFAULT_LIMIT as usize })
     }
 
-    /// The same with another limit on the number of triangles that come out.
+    /// The same tessellator with another limit on the number of resulting triangles.
+    ///
+    /// ```
+    /// use shadowfit::{glam::DVec3, mesh::Tessellator};
+    ///
+    /// let floor = [DVec3::new(-4.0, 0.0, -4.0), DVec3::new(0.0, 0.0, 4.0), DVec3::new(4.0, 0.0, -4.0)];
+    /// let fine = Tessellator::new((0.0, 2.0, 0.0), 0.1, 0.05)?;
+    /// assert!(fine.with_limit(10).tessellate(&floor, &[[0, 1, 2]]).is_err());
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub const fn with_limit(self, triangles: u32) -> Self {
         Self { limit: triangles as usize, ..self }
@@ -104,9 +123,21 @@ impl Tessellator {
     ///
     /// # Errors
     ///
-    /// Names `"positions"` when one is not finite or too large, `"triangles"` when one has an index that there is no
-    /// position for ([`InputErrorKind::OutOfRange`]), and either when there would be more than the limit of what comes out
-    /// ([`InputErrorKind::TooMany`]).
+    /// Names `"positions"` when one is not finite or too large, `"triangles"` when one has an index without a position
+    /// ([`InputErrorKind::OutOfRange`]), and either when the result would exceed the limit ([`InputErrorKind::TooMany`]).
+    ///
+    /// ```
+    /// use shadowfit::{glam::DVec3, mesh::Tessellator};
+    ///
+    /// let floor = [DVec3::new(-4.0, 0.0, -4.0), DVec3::new(0.0, 0.0, 4.0), DVec3::new(4.0, 0.0, -4.0)];
+    /// let tessellator = Tessellator::new((0.0, 2.0, 0.0), 0.1, 0.5)?;
+    /// let fine = tessellator.tessellate(&floor, &[[0, 1, 2]])?;
+    /// let (at, from) = (fine.added[0].position, fine.added[0].corners.map(|corner| floor[corner as usize]));
+    /// let sum = from[0] * fine.added[0].weights[0] + from[1] * fine.added[0].weights[1] + from[2] * fine.added[0].weights[2];
+    /// assert!(at.distance(sum) < 1e-9); // attributes are interpolated the same way
+    /// assert!(tessellator.tessellate(&floor, &[[0, 1, 3]]).is_err());
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     pub fn tessellate(&self, positions: &[DVec3], triangles: &[[u32; 3]]) -> Result<Tessellation, InputError> {
         // All vertices, with as many added as there may be triangles and more, have an index.
         if positions.len() > u32::MAX as usize / 2 {

@@ -1,11 +1,25 @@
-//! What a plan may spend.
+//! The budget of a plan.
 
 use crate::error::{InputError, InputErrorKind, check};
 use crate::map::quality::DepthFormat;
 use crate::settings::Settings;
 use crate::settings::filter::Filter;
 
-/// What a plan may spend, and what is enough.
+/// What a plan may spend, and what counts as fine enough.
+///
+/// ```
+/// use shadowfit::{DepthFormat, Filter, Settings, plan::Budget};
+///
+/// let budget = Budget::new(Settings::new(2048, 1080)?)
+///     .with_format(DepthFormat::Float32)
+///     .with_filter(Filter::Pcf(5))
+///     .with_aliasing(2.0)?
+///     .with_texels(16 << 20);
+/// assert_eq!((budget.format(), budget.filter()), (DepthFormat::Float32, Filter::Pcf(5)));
+/// assert_eq!((budget.aliasing(), budget.texels()), (2.0, 16 << 20));
+/// assert_eq!(budget.settings().map_size(), 2048);
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "stored::Budget"))]
 pub struct Budget {
@@ -20,36 +34,54 @@ impl Budget {
     /// The smallest map that is worth a pass, in texels a side.
     pub const SMALLEST_MAP: u32 = 64;
 
-    /// A budget from how maps are fitted: all maps are square and no larger than that of the settings, or than its shorter
-    /// side ([`Settings::map_size`]); none has another warp than theirs, and none has one where they say
-    /// [`Warp::Uniform`](crate::Warp::Uniform) or [`Warp::Stable`](crate::Warp::Stable); clip space and origin are the
-    /// settings' own. The back-shift of [`Warp::Perspective`](crate::Warp::Perspective) is chosen by the plan, and the border
-    /// is as wide as the filter needs.
+    /// A budget with these settings: their warp, clip space and origin, and their size as the largest.
     ///
-    /// Until told otherwise, depth has 24 bits, the filter is the sampler's own, a texel as large as a pixel is fine
-    /// enough, and all maps together may have as many texels as they need.
+    /// Maps are square and no larger than the shorter side of the settings ([`Settings::map_size`]). None has another warp than
+    /// theirs, and none is warped where they say [`Warp::Uniform`](crate::Warp::Uniform) or
+    /// [`Warp::Stable`](crate::Warp::Stable). The back-shift of [`Warp::Perspective`](crate::Warp::Perspective) is chosen by the
+    /// plan, and the border is as wide as the filter needs.
+    ///
+    /// By default depth has 24 bits, the filter is the sampler's 2 × 2, a texel as large as a pixel is fine enough, and all maps
+    /// together may have as many texels as they need.
+    ///
+    /// ```
+    /// use shadowfit::{DepthFormat, Filter, Settings, plan::Budget};
+    ///
+    /// let budget = Budget::new(Settings::default());
+    /// assert_eq!((budget.format(), budget.filter()), (DepthFormat::Unorm24, Filter::Hardware2x2));
+    /// assert_eq!((budget.aliasing(), budget.texels()), (1.0, u64::MAX));
+    /// ```
     #[must_use]
     pub fn new(settings: Settings) -> Self {
         Self { settings, format: DepthFormat::Unorm24, filter: Filter::default(), aliasing: 1.0, texels: u64::MAX }
     }
 
-    /// The same with a depth format.
+    /// The same budget with another depth format.
     #[must_use]
     pub const fn with_format(self, format: DepthFormat) -> Self {
         Self { format, ..self }
     }
 
-    /// The same with the widest filter.
+    /// The same budget with another widest filter.
     #[must_use]
     pub const fn with_filter(self, filter: Filter) -> Self {
         Self { filter, ..self }
     }
 
-    /// The same with what is fine enough: the largest side of a texel, over that of a pixel.
+    /// The same budget with the aliasing that is fine enough: the longest side of a texel over that of a pixel.
     ///
     /// # Errors
     ///
     /// Names `"aliasing"` when it is not a positive number.
+    ///
+    /// ```
+    /// use shadowfit::{Settings, plan::Budget};
+    ///
+    /// let budget = Budget::new(Settings::default());
+    /// assert_eq!(budget.with_aliasing(2.0)?.aliasing(), 2.0);
+    /// assert!(budget.with_aliasing(0.0).is_err());
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     pub fn with_aliasing(self, aliasing: f64) -> Result<Self, InputError> {
         match aliasing.is_finite() {
             false => check::fail("aliasing", InputErrorKind::NotFinite),
@@ -58,8 +90,16 @@ impl Budget {
         }
     }
 
-    /// The same with the most texels that the maps of all lights may have together. Maps are made smaller to keep to it,
+    /// The same budget with the most texels that the maps of all lights may have together. Maps are made smaller to keep to it,
     /// the largest first, down to [`Self::SMALLEST_MAP`] a side.
+    ///
+    /// ```
+    #[doc = include_str!("../examples/plan.txt")]
+    /// let plan = plan(&view, &lights, &objects, &budget.with_texels(256 * 256));
+    /// assert!(plan.texels() <= 256 * 256);
+    /// assert!(plan.lights()[0].reasons().contains(&Reason::OverBudget(256)));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub const fn with_texels(self, texels: u64) -> Self {
         Self { texels, ..self }
@@ -83,7 +123,7 @@ impl Budget {
         self.filter
     }
 
-    /// What is fine enough, see [`Self::with_aliasing`].
+    /// The aliasing that is fine enough, see [`Self::with_aliasing`].
     #[must_use]
     pub const fn aliasing(&self) -> f64 {
         self.aliasing

@@ -1,4 +1,4 @@
-//! One light: the least that is enough for it.
+//! One light: the cheapest technique that suffices for it.
 
 use super::budget::Budget;
 use super::groups::{loosened, meets};
@@ -34,7 +34,7 @@ const BLENDED: f64 = 1.0;
 /// A bias that moves shadows by no more pixels than this is hidden: a pixel at their edges is off by as much anyway.
 const HIDDEN_BIAS: f64 = 1.0;
 
-/// What can be near a light, of the objects.
+/// The objects that a light may reach.
 #[derive(Default)]
 pub(super) struct Reach {
     pub(super) receivers: Vec<Aabb>,
@@ -44,7 +44,7 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// Collects what is visible or casts inside the planes of a light.
+    /// Collects the receivers and casters inside the planes of a light.
     fn gather(&mut self, seen: &Seen, objects: &Objects, light: &[Plane]) {
         let Self { receivers, casters, ids, .. } = self;
         receivers.clear();
@@ -64,9 +64,9 @@ impl Reach {
 pub(super) struct Candidate {
     pub(super) kind: Kind,
     pub(super) projections: Vec<Projection>,
-    /// The longest side of a texel over that of a pixel, at its worst.
+    /// The worst aliasing.
     pub(super) aliasing: f64,
-    /// The same on the mean over the points where maps are compared.
+    /// The mean aliasing over the points where maps are compared.
     mean: f64,
 }
 
@@ -139,7 +139,7 @@ impl Planner<'_> {
         settings.and_then(|settings| settings.with_border(border.min(size / 4))).unwrap_or(*budget)
     }
 
-    /// The least that is fine enough: a map of the largest size, or a half, a quarter, … of it.
+    /// The smallest map that is fine enough: of the largest size, or a half, a quarter, … of it.
     pub(super) fn sized(&self, at: impl Fn(u32, &mut Vec<Reason>) -> Found, reasons: &mut Vec<Reason>) -> Found {
         let before = reasons.len();
         let Some(largest) = at(self.most, reasons)? else { return Ok(None) };
@@ -178,7 +178,7 @@ impl Planner<'_> {
         }
     }
 
-    /// One frustum, warped or not; `None` when none holds all that is visible and lit.
+    /// One frustum, warped or not; `None` when none holds all receivers.
     pub(super) fn frustum(
         &self,
         focus: &Focus<'_>,
@@ -320,7 +320,7 @@ impl Planner<'_> {
     }
 }
 
-/// What the casters of a light are made of.
+/// The surfaces of a light's casters.
 #[derive(Default)]
 struct MadeOf {
     curved_sheets: bool,
@@ -338,10 +338,10 @@ impl MadeOf {
         }
     }
 
-    /// The test for them, and whether by virtual samples, where a bias would move shadows by so many pixels.
+    /// The depth test for these casters, and whether by virtual samples, where a bias would move shadows by so many pixels.
     ///
-    /// A sheet holds its own depths in second depth too, and virtual samples tell them apart on a plane. Beside a bend the
-    /// plane goes on where the sheet does not, so that a curved sheet would need a bias all the same.
+    /// An open mesh is stored in second depth too, and virtual samples tell it from its receivers where it is flat. Beside a bend
+    /// the plane goes on where the mesh does not, so that a curved one would need a bias all the same.
     fn test(&self, kind: Kind, moved: f64, reasons: &mut Vec<Reason>) -> (DepthTest, bool) {
         let has_samples = !matches!(kind, Kind::Paraboloid | Kind::DualParaboloid);
         let (test, virtual_samples, why) = if self.points {

@@ -1,4 +1,4 @@
-//! What a scene needs of its lights' shadows, and why.
+//! The planner: the cheapest sufficient shadow technique for every light of a view, with the reason.
 
 mod budget;
 mod groups;
@@ -27,54 +27,38 @@ pub use budget::Budget;
 pub use objects::{Object, Objects, Surface};
 pub use reason::Reason;
 
-/// Plans the shadows of all lights of a view: for each the least that is enough, and why.
+/// Chooses the cheapest sufficient shadow technique for each light, given all lights and objects, with the reasons.
 ///
 /// ```
-/// # fn main() -> Result<(), shadowfit::InputError> {
-/// use shadowfit::glam::Vec3;
-/// use shadowfit::{
-///     Aabb, Light, Settings, View, mesh::Solidity, plan::{Budget, Object, Objects, Projection, Surface, plan},
-/// };
-///
-/// let ground = Object::new(Aabb::new(Vec3::new(-50.0, -0.1, -50.0), Vec3::new(50.0, 0.0, 50.0)));
-/// let tower = Object { surface: Surface::Mesh(Solidity::Watertight), ..Object::new(Aabb::new(Vec3::new(2.0, 0.0, -12.0), Vec3::new(4.0, 9.0, -10.0))) };
-/// let objects = Objects::new(&[Object { casts: false, ..ground }, tower])?;
-/// let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 500.0)?;
-/// let lights = [Light::directional((0.4, 1.0, 0.2))?, Light::point((3.0, 4.0, 40.0), 0.1, 6.0)?];
-///
-/// let plan = plan(&view, &lights, &objects, &Budget::new(Settings::new(2048, 1080)?));
+#[doc = include_str!("../examples/plan.txt")]
+/// let plan = plan(&view, &lights, &objects, &budget);
 /// for light in plan.lights() {
-///     for reason in light.reasons() {
-///         println!("{reason}"); // no map: nothing in view can be lit
-///     }
+///     assert!(!light.reasons().is_empty()); // "no map: nothing can cast on a receiver in view", …
 ///     for pass in light.passes() {
-///         if let Projection::Frustum(map) = pass.projection() {
-///             println!("draw {:?} with {}", plan.casters(pass), map.caster_matrix());
-///         }
+///         let Projection::Frustum(map) = pass.projection() else { panic!("the sun has a frustum") };
+///         assert!(map.w_at(view.eye()) > 0.0); // draw `plan.casters(pass)` with `map.caster_matrix()`
 ///     }
 /// }
-/// # Ok(())
-/// # }
+/// assert_eq!(plan.lights()[1].reasons(), [Reason::NoCasters]); // too far away
+/// # Ok::<(), shadowfit::InputError>(())
 /// ```
 ///
-/// What is chosen, and by what:
-///
-/// | what | by |
+/// | choice | criterion |
 /// |---|---|
-/// | no map | nothing that receives is in view and lit, or nothing casts on it |
+/// | no map | no receiver is in view and lit, or nothing casts on one |
 /// | one uniform map or one warped map | the uniform one where it is fine enough; else the finer one, at worst and on the mean: never a warp that is coarser at worst |
 /// | the warp's camera moved back or not | the finer of the two; not, where they are the same |
 /// | one paraboloid instead of a frustum | the frustum is so wide that it is much coarser |
-/// | one or two paraboloids, or a cube's faces | passes, and whether all casters are cut finely enough for a map that bends lines |
-/// | second depth, first depth with a bias, or virtual samples | what the casters are made of, and how far the bias would move shadows |
-/// | the filter | how large texels are in the image |
+/// | one or two paraboloids, or cube faces | the number of passes, and whether the edges of all casters are short enough for paraboloid maps |
+/// | second depth, first depth with a bias, or virtual samples | the surfaces of the casters, and how far the bias would move shadows |
+/// | the filter | the size of texels in the image |
 /// | the size | the least power of two that is fine enough, and the texels of all lights |
 ///
-/// Fine or coarse is the longest side of a texel over that of a pixel, at its worst among the corners of the largest
-/// receivers in view, cut by the view and by what the light reaches.
-///
-/// The view is first narrowed to the depths of the receivers in it, which is most of what a depth read-back would gain
-/// (Stamminger & Drettakis 2002, §6).
+/// How fine a map is: the worst aliasing among the corners of the largest receivers in view, cut by the view and by the
+/// light's reach. The view is first narrowed to the depths of the receivers in it, which is most of what a depth read-back
+/// would gain (Stamminger & Drettakis 2002, §6). `docs/planner.md` has what each choice costs and gains.
+#[doc(alias = "planner")]
+#[doc(alias = "quality settings")]
 #[must_use]
 pub fn plan(view: &View, lights: &[Light], objects: &Objects, budget: &Budget) -> Plan {
     let seen = Seen::new(view, objects);
@@ -99,7 +83,18 @@ fn texels(plans: &[LightPlan]) -> u64 {
     plans.iter().map(LightPlan::texels).sum()
 }
 
-/// The shadows of all lights of a view.
+/// The shadows of all lights of a view, as [`plan`](plan()) chose them.
+///
+/// ```
+#[doc = include_str!("../examples/plan.txt")]
+/// let plan = plan(&view, &lights, &objects, &budget);
+/// assert_eq!(plan.lights().len(), lights.len());
+/// assert_eq!(plan.passes(), 1); // the sun's
+/// assert_eq!(plan.casters(&plan.lights()[0].passes()[0]), [1]); // the tower
+/// assert_eq!((plan.triangles(), plan.texels()), (12, plan.lights()[0].texels()));
+/// assert!(plan.view().near() > view.near() && plan.view().far() < view.far());
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Plan {
     view: View,
@@ -108,8 +103,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The view, narrowed to the depths of the receivers in it. Everything that receives and is in the view that was
-    /// given is in this one.
+    /// The view, narrowed to the depths of the receivers in it: it holds every receiver of the original view.
     #[must_use]
     pub const fn view(&self) -> &View {
         &self.view
@@ -121,32 +115,32 @@ impl Plan {
         &self.lights
     }
 
-    /// What a pass of this plan draws: indices into the objects that it was made for, in no order.
+    /// The casters that a pass of this plan draws: indices into the objects that it was made for, in no order.
     #[must_use]
     pub fn casters(&self, pass: &Pass) -> &[u32] {
         self.casters.get(pass.casters.clone()).unwrap_or_default()
     }
 
-    /// Passes of all lights.
+    /// The number of passes of all lights.
     #[must_use]
     pub fn passes(&self) -> usize {
         self.lights.iter().map(|light| light.passes.len()).sum()
     }
 
-    /// Texels of all maps.
+    /// The number of texels of all maps.
     #[must_use]
     pub fn texels(&self) -> u64 {
         texels(&self.lights)
     }
 
-    /// Triangles drawn in all passes.
+    /// The number of triangles drawn in all passes.
     #[must_use]
     pub fn triangles(&self) -> u64 {
         self.lights.iter().flat_map(|light| &light.passes).map(|pass| pass.triangles).sum()
     }
 }
 
-/// The kind of a light's shadow.
+/// The shadow technique of a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -165,7 +159,19 @@ pub enum Kind {
     CubeFaces,
 }
 
-/// The shadow of one light.
+/// The plan of one light.
+///
+/// ```
+#[doc = include_str!("../examples/plan.txt")]
+/// let plan = plan(&view, &lights, &objects, &budget);
+/// let (sun, far) = (&plan.lights()[0], &plan.lights()[1]);
+/// assert!(matches!(sun.kind(), Kind::Uniform | Kind::Warped));
+/// assert_eq!((sun.test(), sun.virtual_samples()), (DepthTest::Second, false)); // the tower is watertight
+/// assert!(sun.aliasing() > 0.0 && sun.texels() > 0 && sun.passes().len() == 1);
+/// assert!(sun.reasons().contains(&Reason::AllSolid));
+/// assert_eq!((far.kind(), far.filter(), far.passes().len()), (Kind::Nothing, Filter::Nearest, 0));
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct LightPlan {
     kind: Kind,
@@ -190,64 +196,63 @@ impl LightPlan {
         }
     }
 
-    /// What kind of map it has.
+    /// The technique.
     #[must_use]
     pub const fn kind(&self) -> Kind {
         self.kind
     }
 
-    /// What is drawn and how depths are tested: [`DepthTest::First`] with the bias of each pass, or
-    /// [`DepthTest::Second`] without any.
+    /// The depth test: [`DepthTest::First`] with the bias of each pass, or [`DepthTest::Second`] without any.
     #[must_use]
     pub const fn test(&self) -> DepthTest {
         self.test
     }
 
-    /// Whether its maps are read by virtual samples, see [`TangentPlane`](crate::depth::TangentPlane).
+    /// Whether its maps are read with virtual samples, see [`TangentPlane`](crate::depth::TangentPlane).
     #[must_use]
     pub const fn virtual_samples(&self) -> bool {
         self.virtual_samples
     }
 
-    /// How its maps are read.
+    /// The filter that its maps are read with.
     #[must_use]
     pub const fn filter(&self) -> Filter {
         self.filter
     }
 
-    /// The longest side of a texel over that of a pixel, at its worst where maps are compared; 0 without a map.
+    /// The worst aliasing where maps are compared; 0 without a map.
     #[must_use]
     pub const fn aliasing(&self) -> f64 {
         self.aliasing
     }
 
-    /// What is drawn for it: one pass a map.
+    /// The passes that draw it, one for each map.
     #[must_use]
     pub fn passes(&self) -> &[Pass] {
         &self.passes
     }
 
-    /// Why it is as it is, from the kind to the filter.
+    /// The reasons for each choice, from the technique to the filter.
     #[must_use]
     pub fn reasons(&self) -> &[Reason] {
         &self.reasons
     }
 
-    /// Texels of its maps.
+    /// The number of texels of its maps.
     #[must_use]
     pub fn texels(&self) -> u64 {
         self.passes.iter().map(|pass| u64::from(pass.map_size()).pow(2)).sum()
     }
 }
 
-/// What one map is drawn through.
+/// The projection that one map is drawn with.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Projection {
     /// A matrix.
     Frustum(ShadowMap),
-    /// A matrix, for what lies in this face of the cube around the light.
+    /// A matrix, for receivers in this face of the cube around the light.
     Face(CubeFace, ShadowMap),
-    /// A paraboloid, for what lies in its hemisphere.
+    /// A paraboloid, for receivers in its hemisphere.
     Paraboloid(Paraboloid),
 }
 
@@ -275,6 +280,18 @@ impl Projection {
 }
 
 /// One map to draw.
+///
+/// ```
+#[doc = include_str!("../examples/plan.txt")]
+/// let open = Object { surface: Surface::default(), ..tower };
+/// let plan = plan(&view, &lights, &Objects::new(&[ground, open])?, &budget);
+/// let pass = &plan.lights()[0].passes()[0];
+/// let Projection::Frustum(map) = pass.projection() else { panic!("the sun has a frustum") };
+/// assert_eq!(pass.map_size(), map.settings().map_size());
+/// assert!(pass.bias().is_some_and(|bias| bias.slope_scale > 0.0)); // an open mesh needs one
+/// assert_eq!(pass.triangles(), 12);
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Pass {
     projection: Projection,
@@ -284,25 +301,25 @@ pub struct Pass {
 }
 
 impl Pass {
-    /// What it is drawn through.
+    /// The projection that it is drawn with.
     #[must_use]
     pub const fn projection(&self) -> &Projection {
         &self.projection
     }
 
-    /// The bias that a test of first depths needs; `None` for the others.
+    /// The depth bias for [`DepthTest::First`]; `None` for other tests.
     #[must_use]
     pub const fn bias(&self) -> Option<&DepthBias> {
         self.bias.as_ref()
     }
 
-    /// How many triangles it draws.
+    /// The number of triangles it draws.
     #[must_use]
     pub const fn triangles(&self) -> u64 {
         self.triangles
     }
 
-    /// Texels a side of its map.
+    /// The size of its map in texels a side.
     #[must_use]
     pub const fn map_size(&self) -> u32 {
         match &self.projection {

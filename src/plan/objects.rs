@@ -1,4 +1,4 @@
-//! The scene as the planner wants it: objects with bounds, and what they are made of.
+//! The scene as the planner takes it: objects with bounds and the kind of their surface.
 
 use super::groups::Groups;
 use crate::error::{InputError, InputErrorKind, check};
@@ -7,7 +7,7 @@ use crate::mesh::{OpenShape, Solidity, SolidityReport};
 use alloc::vec::Vec;
 use glam::DVec3;
 
-/// What an object is made of, which decides how its shadow can be tested.
+/// The kind of an object's surface, which decides how its shadow can be tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -21,7 +21,7 @@ pub enum Surface {
 }
 
 impl Default for Surface {
-    /// Triangles of which nothing is known, which is the same as an open mesh that curves.
+    /// An unknown mesh, which is treated as an open mesh that curves.
     fn default() -> Self {
         Self::Mesh(Solidity::Open)
     }
@@ -37,6 +37,14 @@ impl From<&SolidityReport> for Surface {
 }
 
 /// An object of a scene: what a renderer culls and draws as one.
+///
+/// ```
+/// use shadowfit::{Aabb, plan::{Object, Surface}};
+///
+/// let tree = Object { triangles: 4000, longest_edge: 0.3, ..Object::new(Aabb::new([0.0, 0.0, 0.0], [3.0, 9.0, 3.0])) };
+/// assert!(tree.casts && tree.receives);
+/// assert_eq!(tree.surface, Surface::default());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Object {
@@ -46,17 +54,24 @@ pub struct Object {
     pub casts: bool,
     /// Whether shadows fall on it.
     pub receives: bool,
-    /// What its surface is made of.
+    /// The kind of its surface.
     pub surface: Surface,
-    /// How many triangles, or points, it is drawn with.
+    /// The number of triangles, or points, it is drawn with.
     pub triangles: u32,
-    /// A length that none of its edges exceeds, in world units. Paraboloid maps bend lines, and hold only what is cut
-    /// finely enough. Infinite where nothing is known of them.
+    /// A length that none of its edges exceeds, in world units; infinite if unknown. Paraboloid maps bend lines and need short
+    /// edges.
     pub longest_edge: f32,
 }
 
 impl Object {
     /// An object that casts and receives, of which nothing else is known: an open mesh of one triangle as large as its box.
+    ///
+    /// ```
+    /// use shadowfit::{Aabb, plan::Object};
+    ///
+    /// let unknown = Object::new(Aabb::new([0.0, 0.0, 0.0], [2.0, 2.0, 1.0]));
+    /// assert_eq!((unknown.triangles, unknown.longest_edge), (1, 3.0));
+    /// ```
     #[must_use]
     pub fn new(bounds: Aabb) -> Self {
         let longest_edge = (bounds.max - bounds.min).length();
@@ -64,9 +79,9 @@ impl Object {
     }
 }
 
-/// The objects of a scene, sorted so that those far from a light are passed over together.
+/// The objects of a scene, sorted so that those far from a light are skipped together.
 ///
-/// Made once and again when objects move; [`plan`](super::plan()) reads it for every view.
+/// Made once, and again when objects move; [`plan`](super::plan()) reads it for every view.
 #[derive(Clone, Debug)]
 pub struct Objects {
     objects: Vec<Object>,
@@ -77,12 +92,20 @@ pub struct Objects {
 }
 
 impl Objects {
-    /// Sorts objects. Those that neither cast nor receive play no part, nor do those with an empty box.
+    /// Sorts the objects of a scene. Objects that neither cast nor receive, and those with an empty box, are left out.
     ///
     /// # Errors
     ///
     /// Names `"objects"` when there are more than 2³² − 1, or the bounds of one are not finite, too large or out of
-    /// order, or its longest edge is no length.
+    /// order, or its longest edge is negative or NaN.
+    ///
+    /// ```
+    /// use shadowfit::{Aabb, plan::{Object, Objects, plan}};
+    ///
+    /// let object = Object::new(Aabb::new([0.0, 0.0, 0.0], [2.0, 2.0, 1.0]));
+    /// assert!(Objects::new(&[object]).is_ok());
+    /// assert!(Objects::new(&[Object { longest_edge: -1.0, ..object }]).is_err());
+    /// ```
     pub fn new(objects: &[Object]) -> Result<Self, InputError> {
         const FIELD: &str = "objects";
         if u32::try_from(objects.len()).is_err() {

@@ -1,4 +1,4 @@
-//! What of the scene a view shows, found once for all lights.
+//! The receivers in view, found once for all lights.
 
 use super::groups::{Groups, loosened};
 use super::objects::Objects;

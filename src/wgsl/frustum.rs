@@ -1,6 +1,7 @@
 //! Functions that read frustum maps.
 
-/// Where a position lies in a map. The matrix is [`ShadowMap::receiver_matrix`](crate::ShadowMap::receiver_matrix).
+/// Projects a position into a map: texture coordinates, and the depth to compare. The matrix is
+/// [`ShadowMap::receiver_matrix_with`](crate::ShadowMap::receiver_matrix_with).
 ///
 /// ```wgsl
 /// fn shadowfit_project(texture_from_origin: mat4x4<f32>, position: vec3<f32>) -> vec3<f32>
@@ -31,12 +32,14 @@ pub const MAP_ARRAY: &str = include_str!("map_array.wgsl");
 ///     map: shadowfit_Map, layer: i32, projected: vec3<f32>, taps: i32, reversed: bool,
 /// ) -> f32
 /// ```
+#[doc(alias = "PCF")]
+#[doc(alias = "percentage-closer filtering")]
 pub const FILTERS: &str = include_str!("filters.wgsl");
 
-/// The same with virtual samples ([`crate::depth::TangentPlane`]), over 2 × 2 texels, blended, and over N × N: they need no bias
+/// Filters with virtual samples ([`crate::depth::TangentPlane`]), over 2 × 2 texels, blended, and over N × N: they need no bias
 /// on planes. They need [`FILTERS`] before them. `parts` is
-/// [`ShadowMap::comparison_tolerance`](crate::ShadowMap::comparison_tolerance), from which the second function makes the tolerance that
-/// the others take; the normal is the triangle's, not a smooth one.
+/// [`ShadowMap::comparison_tolerance`](crate::ShadowMap::comparison_tolerance), from which the second function makes the
+/// tolerance that the others take; the normal is the triangle's, not a smooth one.
 ///
 /// ```wgsl
 /// struct shadowfit_Sampled { share: f32, used_plane: bool }
@@ -51,16 +54,17 @@ pub const FILTERS: &str = include_str!("filters.wgsl");
 ///     map: shadowfit_Map, layer: i32, projected: vec3<f32>, slopes: vec2<f32>, taps: i32, tolerance: f32, reversed: bool,
 /// ) -> shadowfit_Sampled
 /// ```
+#[doc(alias = "receiver plane depth bias")]
 pub const VIRTUAL_SAMPLES: &str = include_str!("virtual_samples.wgsl");
 
-/// Depth between two layers ([`DepthTest::BetweenLayers`](crate::depth::DepthTest)), of the nearest texel (one tap) or N × N. They
-/// need [`FILTERS`] before them.
+/// Depth between two layers ([`DepthTest::BetweenLayers`](crate::depth::DepthTest)), of the nearest texel (one tap) or N × N.
+/// They need [`FILTERS`] before them.
 ///
-/// The first function is for the fragments of the second pass, which draws the same triangles with the same vertex shader
-/// and matrix into a map of its own, with `first_layer` to read from: what it answers `false` for is to be discarded. The
+/// The first function is for the fragments of the second pass, which draws the same triangles with the same vertex shader and
+/// matrix into a map of its own, with `first_layer` to read from: discard the fragments that it returns `false` for. The
 /// position must be `@invariant` in both passes. `parts` is
-/// [`ShadowMap::comparison_tolerance`](crate::ShadowMap::comparison_tolerance) for one texel, a reach of 0.5, which counts once for
-/// each of the two depths, so that neither the rounding to the format nor a second triangle in the same plane makes a layer.
+/// [`ShadowMap::comparison_tolerance`](crate::ShadowMap::comparison_tolerance) for one texel, a reach of 0.5, which counts once
+/// for each of the two depths, so that neither the rounding to the format nor a second triangle in the same plane makes a layer.
 ///
 /// ```wgsl
 /// fn shadowfit_is_behind(

@@ -3,6 +3,14 @@
 //! Each constant is the text of a few functions without bindings or entry points, to be put before the shader that calls
 //! them. What they need they take as arguments: matrices as this crate gives them, textures, samplers. All names begin
 //! with `shadowfit_`.
+//!
+//! ```
+//! use shadowfit::wgsl;
+//!
+//! let bindings = "@group(0) @binding(0) var map: texture_depth_2d;";
+//! let shader = [wgsl::MAP, wgsl::PROJECT, wgsl::FILTERS, bindings].concat(); // and what calls them
+//! assert!(shader.contains("fn shadowfit_project(") && shader.contains("fn shadowfit_percentage_closer("));
+//! ```
 
 mod cascades;
 mod frustum;
@@ -12,8 +20,8 @@ mod validation;
 pub use cascades::CASCADES;
 pub use frustum::{BETWEEN_LAYERS, FILTERS, MAP, MAP_ARRAY, PROJECT, VIRTUAL_SAMPLES};
 
-/// Paraboloid maps, drawn and read, see [`Paraboloid`](crate::omni::Paraboloid). `ShadowfitParaboloidVertex` can be what a vertex shader
-/// gives and a fragment shader takes, as it is; the fragment shader writes the depth that it is given.
+/// Draws and reads paraboloid maps, see [`Paraboloid`](crate::omni::Paraboloid). `ShadowfitParaboloidVertex` can be the output
+/// of a vertex shader and the input of a fragment shader, as it is; the fragment shader writes the depth that it is given.
 ///
 /// ```wgsl
 /// struct ShadowfitParaboloidVertex { @builtin(position) position: vec4<f32>, @location(0) surface: vec4<f32> }
@@ -27,12 +35,13 @@ pub use frustum::{BETWEEN_LAYERS, FILTERS, MAP, MAP_ARRAY, PROJECT, VIRTUAL_SAMP
 /// ```
 pub const PARABOLOID: &str = include_str!("paraboloid.wgsl");
 
-/// Discs and balls as quads in a shadow map, each of its [`covering`](crate::depth::Splat::covering) size and of its own depth.
+/// Draws discs and balls as quads into a shadow map, each of its [`covering`](crate::depth::Splat::covering) size and of its own
+/// depth.
 ///
 /// - `shadowfit_disc_splat(shadow_from_world, centre, normal, radius, map_sides, corner)`: the clip position of a corner of
 ///   a disc's rectangle, see [`ShadowMap::disc_splat`](crate::ShadowMap::disc_splat). `shadow_from_world` is
-///   [`ShadowMap::caster_matrix`](crate::ShadowMap::caster_matrix), `centre`, a unit `normal` and `radius` are in the space that it takes positions
-///   in, `map_sides` are the map's width and height as f32s, and `corner` has coordinates −1 or 1.
+///   [`ShadowMap::caster_matrix`](crate::ShadowMap::caster_matrix), `centre`, a unit `normal` and `radius` are in the space
+///   that it takes positions in, `map_sides` are the map's width and height as f32s, and `corner` has coordinates −1 or 1.
 /// - `shadowfit_ball_splat(shadow_from_world, centre, radius, map_sides, corner)`: the same of a ball, see
 ///   [`ShadowMap::splat`](crate::ShadowMap::splat).
 /// - `shadowfit_splat_corner(shadow_from_world, centre, normal, radius, map_sides, corner)`: the same corner as

@@ -5,7 +5,7 @@ use shadowfit::{DepthFormat, Settings};
 
 use super::cut::Cutting;
 use crate::gpu::{Bias, Filter, MapPass, Points};
-use crate::maps::{Cascading, ClipConvention, Layout, Technique};
+use crate::maps::{ClipConvention, Layout, Slicing, Technique};
 use crate::stage::Stage;
 use crate::trace::Faces;
 
@@ -17,7 +17,7 @@ pub struct Options {
     /// Texels along each side.
     pub map_size: u32,
     /// The cascades; `None` for a single map.
-    pub cascading: Option<Cascading>,
+    pub slicing: Option<Slicing>,
     /// The clip space of the matrix.
     pub clip: ClipConvention,
     /// The depth buffer's format.
@@ -43,7 +43,7 @@ impl Options {
         Self {
             technique,
             map_size,
-            cascading: None,
+            slicing: None,
             clip: ClipConvention::Wgpu,
             format: DepthFormat::Unorm24,
             faces: Faces::All,
@@ -58,7 +58,7 @@ impl Options {
     /// Technique and map size in words.
     #[must_use]
     pub fn name(&self) -> String {
-        let times = self.cascading.map_or_else(String::new, |cascading| format!("{} x ", cascading.count));
+        let times = self.slicing.map_or_else(String::new, |slicing| format!("{} x ", slicing.count));
         format!("{} {times}{}", self.technique, self.map_size)
     }
 

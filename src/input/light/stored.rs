@@ -5,6 +5,7 @@ use super::{DVec3, InputError, Plane, Shape, Within};
 #[derive(serde::Deserialize)]
 pub(super) struct Light {
     kind: Kind,
+    #[serde(default)]
     within: Within,
 }
 

@@ -1,4 +1,4 @@
-//! The bias that a paraboloid map needs, and receivers moved towards the light.
+//! The bias of a paraboloid map, for casters in the shader and for receivers in the matrix.
 
 use super::Paraboloid;
 use crate::depth::bias::{DepthBias, GRID, LEAST_HEIGHT, checked_reach, stepped};
@@ -7,48 +7,30 @@ use crate::map::quality::DepthFormat;
 use crate::map::receiver_offset::ReceiverOffset;
 use glam::{DMat4, DVec2, DVec3, Mat4, Vec2};
 
-/// Places are as noisy as the bias says from this part of the far distance on. Nearer to the light a texel is smaller than
-/// what f32 knows of positions.
+/// The bias covers the noise of places from this part of the far distance on. Nearer to the light a texel is smaller than
+/// the rounding of positions in f32.
 const QUIET_FROM: f64 = 1.0 / 64.0;
 
 impl Paraboloid {
-    /// The bias with which no plane shadows itself in this map, for `shadowfit_paraboloid_depth`
-    /// ([`wgsl::PARABOLOID`](crate::wgsl::PARABOLOID)), which adds it itself. A rasteriser cannot: the depths that it knows
-    /// are not those of the plane.
+    /// The depth bias with which no plane has shadow acne in this map, for `shadowfit_paraboloid_depth`
+    /// (`wgsl::PARABOLOID`), which adds it itself: a rasteriser's slopes are not those of the plane.
     ///
     /// `reach` is as for [`ShadowMap::bias`](crate::ShadowMap::bias). The shader takes [`DepthBias::in_shader`], receivers take
-    /// [`Self::receiver_matrix_with`] with [`DepthBias::offset`].
-    ///
-    /// # Derivation
-    ///
-    /// The plane n · x = 1, the light in the middle, is met along the unit direction d at the distance 1/(n · d). In the map
-    /// n · d is not affine, but nearly so: with ω = 1/k, k texels to a unit of (u, v), the second derivative of d along any
-    /// direction is at most 4 ω² a square texel. Over places R no farther than r from T, across and down,
-    ///
-    /// ```text
-    ///     n·d(R) ≥ n·d(T) − r (|n·dₓ| + |n·dᵧ|) − 4 r² ω² |n|
-    /// ```
-    ///
-    /// and what the shader writes is 1 over the right hand side: **the farthest distance of the plane within the reach**, and
-    /// no less than any receiver's, also where the light grazes the plane and slopes alone would say nothing. For this the
-    /// slope multiplies the sum of the changes across and down, where a rasteriser's multiplies the larger one, and it is
-    /// half of what [`ShadowMap::bias`](crate::ShadowMap::bias) would give.
-    ///
-    /// That leaves rounding, as derived for [`DepthBias`]: corners of the triangle are off by s = t + 1/256 texels across and
-    /// by ε in depth, and of that k = 1 + 2√2 r/h, of 1 − 4 s/h, is found at the receiver. The slope is r + k s/(1 − 4 s/h).
-    /// ε is that of the receiver and of the corners, and of the interpolation of what the shader takes, for triangles whose
-    /// corners are no more than twice as far from the light as each other.
-    ///
-    /// # What it takes for granted
-    ///
-    /// - t is that of places no nearer to the light than a 64th of the far distance, nor than its near distance; nearer, f32 may
-    ///   be coarser than that.
-    /// - h is a texel, or eight times s where that is more.
-    /// - It is about planes, as for [`DepthBias`].
+    /// [`Self::receiver_matrix_with`] with [`DepthBias::offset`]. The shader writes the farthest distance of the plane within the
+    /// reach, so that half of the slope of a [`ShadowMap`](crate::ShadowMap) suffices. `docs/lights-all-around.md` has the
+    /// derivation and what it assumes.
     ///
     /// # Errors
     ///
     /// Names `"reach"` when it is not finite, below 0.5 or above [`Settings::MAX_SIZE`](crate::Settings::MAX_SIZE).
+    ///
+    /// ```
+    #[doc = include_str!("../../examples/room.txt")]
+    /// let bias = map.bias(DepthFormat::Unorm24, Filter::Hardware2x2.reach())?;
+    /// assert!(bias.slope_scale > 1.0 && bias.receiver > 0.0);
+    /// assert!(map.bias(DepthFormat::Unorm24, 0.0).is_err());
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     pub fn bias(&self, format: DepthFormat, reach: f64) -> Result<DepthBias, InputError> {
         let reach = checked_reach(reach)?;
         let noise = self.noise_between(self.near.max(QUIET_FROM * self.far), self.far);
@@ -71,10 +53,23 @@ impl Paraboloid {
         })
     }
 
-    /// The matrix for receivers: [`Self::caster_matrix`] with an offset in it.
+    /// The matrix to upload for testing receivers: [`Self::caster_matrix`] with a receiver offset in it.
     ///
-    /// Depth is distance, so that every kind of offset is exactly what it says, for all receivers:
-    /// [`ReceiverOffset::world`] moves each by just that distance, [`ReceiverOffset::relative`] by just that part.
+    /// Depth is distance, so that every kind of offset is exact for all receivers: [`ReceiverOffset::world`] moves each by just
+    /// that distance, [`ReceiverOffset::relative`] by just that part.
+    ///
+    /// ```
+    #[doc = include_str!("../../examples/room.txt")]
+    /// use shadowfit::depth::ReceiverOffset;
+    ///
+    /// let depth = |matrix: shadowfit::glam::Mat4| {
+    ///     let q = matrix * floor.as_vec3().extend(1.0);
+    ///     q.truncate().length() - q.w
+    /// };
+    /// let moved = depth(map.caster_matrix()) - depth(map.receiver_matrix_with(&ReceiverOffset::world(0.1)?));
+    /// assert!((f64::from(moved) * (map.far() - map.near()) - 0.1).abs() < 1e-5);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn receiver_matrix_with(&self, offset: &ReceiverOffset) -> Mat4 {
         let (part, nearer) = offset.of_distance(self.range());
@@ -86,9 +81,18 @@ impl Paraboloid {
         matrix.as_mat4()
     }
 
-    /// How far behind a caster a receiver may be and still be lit, in world units along the ray through a point on the
-    /// caster: what the bias costs, on a plane across `normal` (of any length), where the ray goes through the middle of a
-    /// texel. Infinite where no distance is so much larger.
+    /// Peter-panning: how far behind a caster a receiver may be and still be lit, in world units along the light's ray through a
+    /// point on the caster, on a plane across `normal` (of any length), where the ray goes through the middle of a texel.
+    /// Infinite where no distance is so much larger.
+    ///
+    /// ```
+    #[doc = include_str!("../../examples/room.txt")]
+    /// let bias = map.bias(DepthFormat::Unorm24, 1.0)?;
+    /// let gap = map.bias_distance(floor, up, &bias);
+    /// assert!(0.0 < gap && gap < 0.1);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
+    #[doc(alias = "peter-panning")]
     #[must_use]
     pub fn bias_distance(&self, point: DVec3, normal: DVec3, bias: &DepthBias) -> f64 {
         let (distance, Some(slopes)) = (point.distance(self.position), self.distance_slopes(point, normal)) else {
@@ -101,9 +105,17 @@ impl Paraboloid {
         stored - distance + added * self.range()
     }
 
-    /// How much the distance of a plane from the light changes, at a point of it, to the next texel across and to the next
-    /// one up, in world units; the normal may have any length. `None` where the light sees the plane from its edge or the
+    /// The slopes of a plane's distance from the light at a point of it, in world units: the change to the next texel across and
+    /// to the next one up. The normal may have any length. `None` where the light sees the plane from its edge or the
     /// map has no place for the point.
+    ///
+    /// ```
+    #[doc = include_str!("../../examples/room.txt")]
+    /// let below = floor.with_x(0.0).with_z(0.0); // where the light looks straight down
+    /// assert!(map.distance_slopes(below, up).expect("a place").length() < 1e-12);
+    /// assert!(map.distance_slopes(floor, up).expect("a place").length() > 1e-4);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn distance_slopes(&self, point: DVec3, normal: DVec3) -> Option<DVec2> {
         let texel = self.footprint(point)?;
@@ -115,8 +127,16 @@ impl Paraboloid {
 }
 
 impl DepthBias {
-    /// The constant, as a depth, and the slope: what `shadowfit_paraboloid_depth` takes
-    /// ([`wgsl::PARABOLOID`](crate::wgsl::PARABOLOID)).
+    /// The constant, as a depth, and the slope scale, as `shadowfit_paraboloid_depth` takes them
+    /// (`wgsl::PARABOLOID`).
+    ///
+    /// ```
+    #[doc = include_str!("../../examples/room.txt")]
+    /// let bias = map.bias(DepthFormat::Unorm24, 1.0)?;
+    /// assert!(bias.in_shader().x > 0.0);
+    /// assert_eq!(bias.in_shader().y, bias.slope_scale);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn in_shader(&self) -> Vec2 {
         let unit = *self.format.bias_unit(1.0).end();

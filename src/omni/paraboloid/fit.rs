@@ -11,7 +11,16 @@ use crate::settings::Settings;
 use core::slice;
 use glam::DVec3;
 
-/// What comes of a fit of paraboloid maps.
+/// Result of fitting paraboloid maps ([`Focus::paraboloids`]).
+///
+/// ```
+#[doc = include_str!("../../examples/room.txt")]
+/// let two = focus.paraboloids(&settings);
+/// assert_eq!(two.maps(), [map, other]);
+/// let sun = Light::directional((0.4, 1.0, 0.2))?;
+/// assert_eq!(Focus::new(&view, &sun, &scene).paraboloids(&settings), Paraboloids::Directional);
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "a box would need a heap")]
 pub enum Paraboloids {
@@ -19,7 +28,7 @@ pub enum Paraboloids {
     Empty(Empty),
     /// The light is infinitely far away and has no hemispheres: [`Focus::fit`] serves every such light.
     Directional,
-    /// One map holds all that is visible and lit.
+    /// One map holds all receivers.
     One(Paraboloid),
     /// A map for each hemisphere, with the same depths: the second is the first one's
     /// [opposite](Paraboloid::opposite).
@@ -27,7 +36,7 @@ pub enum Paraboloids {
 }
 
 impl Paraboloids {
-    /// The maps, as many as there are.
+    /// The maps: none, one or two.
     #[must_use]
     pub const fn maps(&self) -> &[Paraboloid] {
         match self {
@@ -39,8 +48,18 @@ impl Paraboloids {
 }
 
 impl Focus<'_> {
-    /// Fits one or two paraboloid maps, with the world's y axis between the two hemispheres of a light that shines all
-    /// around. For another axis see [`Self::paraboloids_about`].
+    /// Fits one or two paraboloid maps to a light at a position. A point light inside of its receivers gets two, with the world's
+    /// y axis between the hemispheres; for another axis see [`Self::paraboloids_about`].
+    ///
+    /// ```
+    #[doc = include_str!("../../examples/room.txt")]
+    /// assert_eq!(focus.paraboloids(&settings).maps().len(), 2);
+    /// let ceiling = Light::point((0.0, 3.0, 0.0), 0.05, 10.0)?;
+    /// assert_eq!(Focus::new(&view, &ceiling, &scene).paraboloids(&settings).maps().len(), 1);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
+    #[doc(alias = "dual paraboloid")]
+    #[doc(alias = "DPSM")]
     #[must_use]
     pub fn paraboloids(&self, settings: &Settings) -> Paraboloids {
         self.fit_paraboloids(DVec3::NEG_Y, settings)
@@ -56,15 +75,22 @@ impl Focus<'_> {
     ///     R around the light            two maps, around `axis` and against it
     /// ```
     ///
-    /// The axis is fixed in the world, because texels should be: an axis that followed the view would move the texels of
-    /// all that stands still, and edges of shadows would swim. Nothing else depends on it, but what lies along the seam
-    /// between the hemispheres is tested at the rims of both. Straight down is a good axis: the seam is then level with
-    /// the lamp, and all that is below a lamp under a ceiling is in one map. Only where a plane of the view decides, for a
-    /// light out of view, does the map turn with the camera, for half of the cost.
+    /// The axis is fixed in the world: with one that followed the view, texels would move over what stands still, and shadow
+    /// edges would swim. Straight down is a good axis: the seam is then level with the light, and everything below a ceiling
+    /// light is in one map. Only for a light out of view, where a plane of the view decides, does the map turn with the camera,
+    /// for half of the cost.
     ///
     /// # Errors
     ///
     /// Names `"axis"` when it is zero or not finite.
+    ///
+    /// ```
+    #[doc = include_str!("../../examples/room.txt")]
+    /// let maps = focus.paraboloids_about((1.0, 0.0, 0.0), &settings)?;
+    /// assert_eq!(maps.maps()[0].axis(), DVec3::X);
+    /// assert!(focus.paraboloids_about((0.0, 0.0, 0.0), &settings).is_err());
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     pub fn paraboloids_about<F: Into<f64>>(
         &self,
         axis: impl Into<[F; 3]>,

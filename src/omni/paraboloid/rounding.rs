@@ -1,9 +1,10 @@
-//! What f32 makes of a paraboloid map.
+//! The rounding of f32 in a paraboloid map.
 
 use super::Paraboloid;
 use glam::DVec3;
 
-/// How far f32 can carry a point, in the matrix, in positions and in the shader: the noise of a paraboloid map.
+/// The farthest that f32 moves a point in a paraboloid map, in the matrix, in positions and in the shader
+/// ([`Paraboloid::rounding`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ParaboloidRounding {
@@ -42,11 +43,18 @@ const INTERPOLATION: f64 = 32.0 * UNIT;
 const QUIET: f64 = 1_048_576.0;
 
 impl Paraboloid {
-    /// How far f32 can carry a point of the map's hemisphere, or one behind its rim.
+    /// The farthest that f32 moves a point of the map's hemisphere, or one behind its rim.
     ///
-    /// With δ the rounding of q and h = r + z, all in world units: the depth is off by δ, by the rounding of the length and
+    /// With δ the rounding of q and h = r + z, all in world units: depth is off by δ, by the rounding of the length and
     /// by that of the near distance; (u, v) = q.xy/h by δ/h and by as much of itself as h is off, 2δ and the roundings of
     /// the length and of the sum.
+    ///
+    /// ```
+    #[doc = include_str!("../../examples/room.txt")]
+    /// let rounding = map.rounding(floor);
+    /// assert!(rounding.texels < 0.01 && rounding.depth < 1e-5);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn rounding(&self, point: DVec3) -> ParaboloidRounding {
         let arm = self.local(point);
