@@ -1,4 +1,4 @@
-//! Bodies and boxes to and from parry3d, component by component: its glam need not be the one used here.
+//! Conversions of bodies and boxes from and to parry3d, by component: its version of glam may differ.
 
 extern crate alloc;
 
@@ -24,11 +24,22 @@ impl From<Aabb> for parry3d::bounding_volume::Aabb {
 }
 
 impl ConvexScene {
-    /// The convex polyhedron, exactly but for the rounding of its normals, when no more than [`Self::MAX_CUTS`] of its
-    /// faces cut its box; [`Self::around`] its points when more do.
+    /// The convex polyhedron, up to rounding of its normals, where at most [`Self::MAX_CUTS`] of its faces cut its box; else
+    /// [`Self::around`] its points. parry3d merges faces that are nearly coplanar: each plane is moved out to the farthest point, so
+    /// that the body holds every point.
     ///
-    /// parry3d merges faces that are nearly coplanar. Each plane is moved out to the farthest point, so that the body
-    /// holds every point all the same.
+    /// ```
+    /// use parry3d::{math::Vector, shape::ConvexPolyhedron};
+    /// use shadowfit::{Focus, Light, Scene, View, input::ConvexScene};
+    ///
+    /// let points = [(0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (0.0, 2.0, 0.0), (0.0, 0.0, 2.0)].map(|(x, y, z)| Vector::new(x, y, z));
+    /// let pyramid = ConvexPolyhedron::from_convex_hull(&points).expect("a solid");
+    /// let scene = ConvexScene::from_parry(&pyramid)?;
+    /// let view = View::perspective((1.0, 1.0, 9.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 50.0)?;
+    /// let focus = Focus::new(&view, &Light::directional((0.4, 1.0, 0.2))?, &Scene::from_convex(&scene));
+    /// assert!((focus.receiver_volume().volume() - 8.0 / 6.0).abs() < 1e-5);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
@@ -39,12 +50,23 @@ impl ConvexScene {
         Self::supported(points, normals)
     }
 
-    /// The convex hull of a mesh's points, where no more than [`Self::MAX_CUTS`] of its faces cut its box, and
-    /// [`Self::around`] the points where more do or they have no volume.
+    /// The convex hull of a mesh's points, where at most [`Self::MAX_CUTS`] of its faces cut its box; else, and for points without
+    /// volume, [`Self::around`] the points.
     ///
-    /// Worth the hull's `O(n log n)` and its allocations for simple solids that are turned: a crate, a roof, a ramp, a
-    /// terrain tile's prism. Their few faces are kept as they are, where [`Self::around`] looks along multiples of 45°
-    /// only. A rounded mesh has a hull of many faces and gains nothing.
+    /// Use it for rotated solids of few faces: a crate, a roof, a ramp, the prism of a terrain tile. Their faces are kept, where
+    /// [`Self::around`] has faces at multiples of 45° only. It takes `O(n log n)` time and allocates; a rounded mesh has too many
+    /// faces to gain.
+    ///
+    /// ```
+    /// use shadowfit::{Focus, Light, Scene, View, glam::Vec3, input::ConvexScene};
+    ///
+    /// let crate_ = [-1.0, 1.0].map(|y| [(2.0, 1.0), (-1.0, 2.0), (-2.0, -1.0), (1.0, -2.0)].map(|(x, z)| Vec3::new(x, y, z)));
+    /// let hull = ConvexScene::hull_of(crate_.as_flattened())?;
+    /// let view = View::perspective((0.0, 0.0, 9.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 50.0)?;
+    /// let focus = Focus::new(&view, &Light::directional((0.4, 1.0, 0.2))?, &Scene::from_convex(&hull));
+    /// assert!((focus.receiver_volume().volume() - 20.0).abs() < 1e-4); // its box has 32
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
@@ -64,7 +86,7 @@ impl ConvexScene {
         }
     }
 
-    /// The body around points whose faces have these outward normals, besides those of its box.
+    /// The body around points with faces of these outward normals, besides those of its box.
     fn supported(
         points: impl Iterator<Item = DVec3> + Clone,
         normals: impl Iterator<Item = DVec3>,
@@ -77,7 +99,7 @@ impl ConvexScene {
         if !min.is_finite() {
             return Self::around(points);
         }
-        // A cut thinner than this is the rounding of an f32 normal, most often of a face of the box itself.
+        // A thinner cut is the rounding of an f32 normal, usually of a face of the box itself.
         let thinnest = 4.0 * f64::from(f32::EPSILON) * (max - min).length();
         let mut planes = [Plane::ONE; Self::MAX_CUTS];
         let mut count = 0;
@@ -95,8 +117,18 @@ impl ConvexScene {
 }
 
 impl ConvexBody {
-    /// The body as a convex polyhedron of parry3d, its vertices rounded to f32; `None` when it is empty or, as far as
-    /// f32 can tell, flat.
+    /// The body as a convex polyhedron of parry3d, with vertices rounded to f32; `None` when it is empty, or flat up to f32 rounding.
+    ///
+    /// ```
+    /// use shadowfit::{Focus, FocusForm, Light, Scene, View};
+    ///
+    /// let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 40.0)?;
+    /// let scene = Scene::from_box((-20.0, 0.0, -20.0), (20.0, 3.0, 20.0))?;
+    /// let body = Focus::new(&view, &Light::directional((0.4, 1.0, 0.2))?, &scene).caster_volume(FocusForm::ReceiverHull);
+    /// let polyhedron = body.to_parry().expect("a solid");
+    /// assert!(polyhedron.points().len() <= body.vertices().len() && polyhedron.points().len() > 4);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn to_parry(&self) -> Option<ConvexPolyhedron> {
         let (min, max) = self.bounds()?;
@@ -109,7 +141,7 @@ impl ConvexBody {
     }
 }
 
-/// What the points of a mesh are called in an [`InputError`].
+/// The field of a mesh's points in an [`InputError`].
 const FIELD: &str = "points";
 
 fn from_parry(vector: Vector) -> Vec3 {

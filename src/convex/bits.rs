@@ -1,4 +1,4 @@
-//! Sets of small numbers.
+//! Bit sets.
 
 /// The positions of the set bits of a word, from the lowest.
 #[derive(Clone, Copy, Debug)]

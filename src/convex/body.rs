@@ -1,23 +1,35 @@
-//! A convex body with its faces, as a result.
+//! Convex bodies with vertices, faces and planes, as results.
 
 use super::{Bits, Plane, Polyhedron};
 use glam::DVec3;
 
-/// A bounded convex body: vertices, faces and planes.
+/// A bounded convex body in world space, with its vertices, edges, faces and planes: the receiver volume R or a caster volume H.
+/// It may be empty or flat, a segment or a point.
 ///
-/// Empty and flat bodies, segments and points are bodies too.
+/// ```
+/// use shadowfit::{Focus, Light, Scene, View, glam::DVec3};
+///
+/// let view = View::orthographic((0.0, 0.0, 50.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 100.0, 1.0, 0.0, 100.0)?;
+/// let cube = Scene::from_box((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0))?;
+/// let body = Focus::new(&view, &Light::directional((0.4, 1.0, 0.2))?, &cube).receiver_volume();
+/// assert_eq!((body.vertices().len(), body.edges().count(), body.faces().count(), body.planes().count()), (8, 12, 6, 6));
+/// assert_eq!(body.bounds(), Some((DVec3::splat(-1.0), DVec3::splat(1.0))));
+/// assert!(!body.is_empty() && (body.volume() - 8.0).abs() < 1e-12);
+/// assert!(body.contains(DVec3::splat(0.9)) && !body.contains(DVec3::splat(1.1)));
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
 ///
 /// # Guarantees
 ///
 /// - No two vertices are equal.
 /// - Every vertex is inside every plane, up to a few roundings of its coordinates.
-/// - Planes stand 96 ε of the magnitudes of their terms outside of the exact body, so that the body holds it, and a point
-///   that is in the body by less than that may be outside of the exact one.
-/// - It holds its memory itself: a body is a few kilobytes and allocates nothing.
+/// - The body contains the exact one: planes stand outside of it by 96 ε of the magnitudes of their terms. A point inside by less
+///   than that may be outside of the exact body.
+/// - A body is a few kilobytes in place and allocates nothing.
 #[derive(Clone, Debug)]
 pub struct ConvexBody {
     positions: [DVec3; Polyhedron::MAX_VERTICES],
-    /// For each vertex, the planes it lies on, one bit each.
+    /// For each vertex the planes that it lies on, one bit each.
     incidence: [u64; Polyhedron::MAX_VERTICES],
     len: usize,
     planes: PlaneTable,
@@ -48,31 +60,30 @@ impl ConvexBody {
         body
     }
 
-    /// Whether there is no point in the body.
+    /// Whether the body has no point.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.len == 0
     }
 
-    /// The vertices, in world space and in no particular order.
+    /// The vertices in world space, in no particular order.
     #[must_use]
     pub fn vertices(&self) -> &[DVec3] {
         &self.positions[..self.len]
     }
 
-    /// The planes that bound the body, inside ≥ 0; each holds at least one vertex.
+    /// The planes that bound the body, inside ≥ 0; at least one vertex lies on each.
     pub fn planes(&self) -> impl Iterator<Item = Plane> + '_ {
         Bits(self.used).map(|bit| self.planes[bit])
     }
 
-    /// The faces: polygons, one for each plane that at least three vertices lie on.
-    ///
-    /// A flat body has two, one for each side; a segment and a point have none.
+    /// The faces: one polygon for every plane with at least three vertices. A flat body has two, one for each side; a segment and a
+    /// point have none.
     pub fn faces(&self) -> impl Iterator<Item = Face<'_>> + '_ {
         Bits(self.used).filter_map(|bit| self.face(bit))
     }
 
-    /// The edges, each once.
+    /// The edges by their ends in world space, each edge once.
     pub fn edges(&self) -> impl Iterator<Item = (DVec3, DVec3)> + '_ {
         self.faces().flat_map(move |face| {
             let (order, len) = (face.order, face.len);
@@ -84,7 +95,7 @@ impl ConvexBody {
         })
     }
 
-    /// The least and largest coordinates, or `None` when empty.
+    /// The least and largest coordinates of the body, or `None` when empty.
     #[must_use]
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let first = *self.vertices().first()?;
@@ -95,7 +106,7 @@ impl ConvexBody {
     #[must_use]
     pub fn volume(&self) -> f64 {
         let Some(&apex) = self.vertices().first() else { return 0.0 };
-        // Cones from one vertex over all faces; a face's polygon as a fan.
+        // The sum of cones from one vertex over all faces, each face a fan of triangles.
         let cones = self.faces().map(|face| {
             let mut corners = face.vertices().map(|corner| corner - apex);
             let Some(first) = corners.next() else { return 0.0 };
@@ -109,7 +120,7 @@ impl ConvexBody {
         (cones.sum::<f64>() / 6.0).abs()
     }
 
-    /// Whether a point lies in the body: inside all planes, exactly as computed.
+    /// Whether a world-space point lies inside all planes of the body, without tolerance.
     #[must_use]
     pub fn contains(&self, point: DVec3) -> bool {
         !self.is_empty() && self.planes().all(|plane| plane.at(point) >= 0.0)
@@ -120,7 +131,7 @@ impl ConvexBody {
         (&self.planes, self.used)
     }
 
-    /// Whether an edge, or at least a vertex, lies on both planes.
+    /// Whether a vertex, and so most often an edge, lies on both planes.
     pub(crate) fn meet(&self, bit: usize, other: usize) -> bool {
         let both = 1_u64 << bit | 1 << other;
         self.incidence[..self.len].iter().any(|set| set & both == both)
@@ -142,8 +153,8 @@ impl ConvexBody {
         }
         let centre = sum / face.len as f64;
         let (x, y) = plane.normalized().normal.any_orthonormal_pair();
-        // Around the centre, by an angle's stand-in that grows with it and needs no arc tangent. The pair is such that
-        // the order is counter-clockwise as seen from outside, against the inward normal.
+        // Sorted around the centre by a function that grows with the angle and needs no arctangent. The pair of axes makes the
+        // order counter-clockwise as seen from outside, against the inward normal.
         let turn = |index: &u8| {
             let arm = self.positions[usize::from(*index)] - centre;
             let (x, y) = (arm.dot(x), arm.dot(y));
@@ -155,8 +166,20 @@ impl ConvexBody {
     }
 }
 
-/// A face of a [`ConvexBody`]: a convex polygon, but where two planes nearly coincide. Corners on both are anywhere between the two,
-/// which is nothing across the plane and may be much along it.
+/// A face of a [`ConvexBody`]: a polygon, convex up to rounding. Where two planes nearly coincide, corners on both may lie anywhere
+/// between them, far along the plane though hardly across it.
+///
+/// ```
+/// use shadowfit::{Focus, Light, Scene, View, glam::DVec3};
+///
+/// let view = View::orthographic((0.0, 0.0, 50.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 100.0, 1.0, 0.0, 100.0)?;
+/// let cube = Scene::from_box((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0))?;
+/// let body = Focus::new(&view, &Light::directional((0.4, 1.0, 0.2))?, &cube).receiver_volume();
+/// let top = body.faces().find(|face| face.plane().normal.y < 0.0).expect("a face with its normal inwards");
+/// assert!(top.vertices().all(|corner| corner.y == 1.0));
+/// assert!(top.indices().map(|index| body.vertices()[index]).eq(top.vertices()));
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Face<'a> {
     body: &'a ConvexBody,
@@ -166,7 +189,7 @@ pub struct Face<'a> {
 }
 
 impl Face<'_> {
-    /// The face's plane; its normal points into the body.
+    /// The plane of the face; its normal points into the body.
     #[must_use]
     pub const fn plane(&self) -> Plane {
         self.plane

@@ -1,24 +1,22 @@
-//! Sums of four products, right to a few roundings of themselves however much they cancel.
+//! Sums of four products with a small relative error, however much they cancel.
 
-/// The sum of the products `a[i] · b[i]`: its sign is the right one, zero included, and its error no more than 130
-/// roundings of itself, 130 · 2⁻⁵³.
+/// The sum of the products `a[i] · b[i]` with the correct sign, zero included, and a relative error of at most 130 · 2⁻⁵³.
 ///
-/// The plain sum is off by no more than four roundings of the sum of magnitudes, which is enough wherever the terms do
-/// not cancel to almost nothing. Where they do, eight numbers that sum to it exactly are added without rounding:
-/// products and sums as Dekker (1971) and Knuth have them, the expansion as Shewchuk (1997, §2.4). No component may be
-/// so large that 2²⁷ times it overflows, nor products so small that their last digits underflow.
+/// The plain sum, off by at most four roundings of the sum of magnitudes, suffices unless the terms nearly cancel. Then the sum is
+/// expanded exactly into eight numbers (products and sums after Dekker 1971 and Knuth, the expansion after Shewchuk 1997, §2.4).
+/// 2²⁷ times a component must not overflow, nor the last digits of a product underflow.
 pub(super) fn sum_of_products(a: [f64; 4], b: [f64; 4]) -> f64 {
     let [p, q, r, s] = [a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]];
     let sum = p + q + r + s;
     if sum.abs() >= (p.abs() + q.abs() + r.abs() + s.abs()) * PLAIN { sum } else { expanded(a, b) }
 }
 
-/// The plain sum is good enough where it is at least this part of the sum of magnitudes: its four roundings are then 128
-/// of itself, and two are left for what is of second order.
+/// The plain sum suffices where it is at least this part of the sum of magnitudes: its four roundings are then 128 of itself, which
+/// leaves two for terms of second order.
 const PLAIN: f64 = 1.0 / 32.0;
 
 fn expanded(a: [f64; 4], b: [f64; 4]) -> f64 {
-    // Components from the smallest to the largest that do not overlap, so that the sign is that of the last one.
+    // Nonoverlapping components, from the smallest to the largest: the last one has the sign of the sum.
     let mut expansion = [0.0; 8];
     for i in 0..4 {
         let (product, rest) = exact_product(a[i], b[i]);
@@ -28,7 +26,7 @@ fn expanded(a: [f64; 4], b: [f64; 4]) -> f64 {
     expansion.iter().sum()
 }
 
-/// Adds a number to an expansion, whose last component is zero before.
+/// Adds a number to an expansion whose last component is zero.
 fn grow(expansion: &mut [f64], number: f64) {
     let mut carried = number;
     let last = expansion.len() - 1;
@@ -38,21 +36,21 @@ fn grow(expansion: &mut [f64], number: f64) {
     expansion[last] = carried;
 }
 
-/// The rounded sum, and what rounding took.
+/// The rounded sum and its rounding error.
 fn exact_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let of_b = sum - a;
     (sum, (a - (sum - of_b)) + (b - of_b))
 }
 
-/// The rounded product, and what rounding took.
+/// The rounded product and its rounding error.
 fn exact_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     let ((a_high, a_low), (b_high, b_low)) = (halves(a), halves(b));
     (product, a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low))
 }
 
-/// A number as a sum of two with half its digits.
+/// A number as a sum of two numbers with half of its digits each.
 fn halves(a: f64) -> (f64, f64) {
     const SPLIT: f64 = 134_217_729.0;
     let scaled = SPLIT * a;

@@ -1,4 +1,4 @@
-//! Planes and convex bodies.
+//! Planes, convex bodies and the clipper.
 
 mod bits;
 mod body;

@@ -1,17 +1,29 @@
-//! Planes, as covectors.
+//! Planes as covectors.
 
 use super::exact::sum_of_products;
 use crate::error::{InputError, check};
 use glam::{DMat4, DVec3, DVec4};
 
-/// An oriented plane: inside where `normal · x + offset ≥ 0`. The normal points inwards and need not be unit length.
+/// An oriented plane: inside where `normal · x + offset ≥ 0`. The normal points inwards and may have any length.
 ///
-/// The same four numbers are a covector: a linear function of homogeneous points, `(normal, offset) · (x, w)`. Rows of
-/// projection matrices are covectors, which is how they turn into planes and back (`docs/design.md`, section 2).
+/// The same four numbers are a covector, a linear function of homogeneous points: `(normal, offset) · (x, w)`. Rows of projection
+/// matrices are covectors, so that planes of a frustum are sums and differences of rows.
+///
+/// ```
+/// use shadowfit::{focus::Plane, glam::{DVec3, DVec4}};
+///
+/// let ceiling = Plane::new(DVec3::new(0.0, -2.0, 0.0), 6.0); // inside below y = 3
+/// assert_eq!(ceiling, Plane::from([0.0, -2.0, 0.0, 6.0]));
+/// assert_eq!(ceiling, Plane::through(DVec3::new(0.0, -2.0, 0.0), DVec3::new(7.0, 3.0, 7.0)));
+/// assert_eq!((ceiling.at(DVec3::ZERO), ceiling.at(DVec3::Y * 4.0)), (6.0, -2.0)); // in units of the normal
+/// assert_eq!(ceiling.normalized().at(DVec3::ZERO), 3.0); // a distance
+/// assert_eq!(ceiling.on(DVec4::Y), -2.0); // along the direction +y it decreases
+/// assert_eq!(ceiling.to_row(), DVec4::new(0.0, -2.0, 0.0, 6.0));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Plane {
-    /// Inward normal, not necessarily unit length; the zero vector for a covector that is constant on points.
+    /// The inward normal, of any length; zero for a covector that is constant on points.
     pub normal: DVec3,
     /// The value at the origin.
     pub offset: f64,
@@ -27,7 +39,7 @@ impl Plane {
         Self { normal, offset }
     }
 
-    /// The plane through `point`.
+    /// The plane with this inward normal through `point`.
     #[must_use]
     pub fn through(normal: DVec3, point: DVec3) -> Self {
         Self::new(normal, -normal.dot(point))
@@ -45,44 +57,33 @@ impl Plane {
         self.normal.dot(homogeneous.truncate()) + self.offset * homogeneous.w
     }
 
-    /// The same as [`Self::on`], but right to a few roundings of itself instead of its terms, and zero only where it is.
+    /// As [`Self::on`], with an error of a few roundings of the value itself instead of its terms: its sign is exact.
     #[must_use]
     pub(crate) fn exactly_on(&self, homogeneous: DVec4) -> f64 {
         sum_of_products(self.to_row().to_array(), homogeneous.to_array())
     }
 
-    /// The same plane with a normal of unit length; unchanged if the normal is zero.
+    /// The same plane with a unit normal, so that values are signed distances; unchanged if the normal is zero.
     #[must_use]
     pub fn normalized(&self) -> Self {
         let length = self.normal.length();
         if length > 0.0 { *self * length.recip() } else { *self }
     }
 
-    /// The plane moved outwards by what rounding can make of it at points no farther out than `extent` on each axis: in
-    /// doubt a body grows and never shrinks.
+    /// The plane moved outwards by a bound on rounding at points up to `extent` on each axis: bodies may grow and never shrink.
     ///
-    /// With M the magnitude `|normal| · extent + |offset|` and u = 2⁻⁵³, a vertex that a cut makes is to lie outside of
-    /// the plane that cut, and so are all that later cuts make on the same face. What can carry it inwards:
+    /// The slack is 192 · 2⁻⁵³ of the magnitude `|normal| · extent + |offset|`, so that every vertex of a cut, and of all later cuts
+    /// on the same face, lies outside of the exact plane. `docs/numerics.md` lists the roundings; [`Polyhedron`] has the proof that
+    /// no cut loses anything then.
     ///
-    /// | | u M |
-    /// |---|---|
-    /// | the normal's length and the offset that goes with it, of a plane that cuts a scene's box | 8 |
-    /// | the sum of the offset and this slack | 1 |
-    /// | the plane's value at either end of the edge | 4 |
-    /// | the part of the edge up to the plane | 3 |
-    /// | the vertex on that edge, here and for each of the at most 57 planes that cut later | 3 · 58 |
-    ///
-    /// which is 190, less than 192. Why no cut then loses anything is said at [`Polyhedron`](super::Polyhedron).
-    ///
-    /// Of the planes that a hull's plane is the sum of, it covers what the sum loses: each counts by the value of the
-    /// other at the light, which is right to 130 u of itself, and the division and the sum take 3 u more.
+    /// [`Polyhedron`]: super::Polyhedron
     #[must_use]
     pub(crate) fn loosened(&self, extent: DVec3) -> Self {
         let magnitude = self.normal.abs().dot(extent) + self.offset.abs();
         Self::new(self.normal, self.offset + Self::SLACK * magnitude)
     }
 
-    /// What planes are moved outwards by, of the sum of the magnitudes of their terms: 192 roundings.
+    /// The slack of [`Self::loosened`], relative to the sum of magnitudes: 192 roundings.
     pub(crate) const SLACK: f64 = 96.0 * f64::EPSILON;
 
     /// The plane with a unit normal, if it is finite and has a direction.
@@ -107,7 +108,7 @@ impl Plane {
     }
 }
 
-/// From `[x, y, z, offset]`, as other libraries keep planes: inside where `x·X + y·Y + z·Z + offset ≥ 0`.
+/// From `[x, y, z, offset]`, the form of other libraries: inside where `x·X + y·Y + z·Z + offset ≥ 0`.
 impl<F: Into<f64>> From<[F; 4]> for Plane {
     fn from(row: [F; 4]) -> Self {
         let [x, y, z, offset] = row.map(Into::into);

@@ -3,11 +3,11 @@
 use super::{Plane, bits::Bits};
 use glam::DVec3;
 
-/// The name of a plane in a body that it bounds: a number below [`Polyhedron::MAX_PLANES`].
+/// The name of a plane of a body: a number below [`Polyhedron::MAX_PLANES`].
 pub(crate) type PlaneId = u8;
 
-/// A vertex, the three planes it lies on, and its neighbours: the k-th one is at the other end of the edge that lies on
-/// the two planes other than the k-th.
+/// A vertex, the three planes that it lies on, and its neighbours. The k-th neighbour is at the other end of the edge on the two
+/// planes other than the k-th.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertex {
     pub(crate) position: DVec3,
@@ -15,10 +15,10 @@ pub(crate) struct Vertex {
     neighbours: [u8; 3],
 }
 
-/// A bounded convex polyhedron with room for 64 vertices; no vertex at all is the empty set.
+/// A bounded convex polyhedron with room for 64 vertices; without vertices it is the empty set.
 ///
-/// There are no faces, only the graph of vertices and edges. A cut replaces the vertices outside of a plane by one
-/// new vertex for each edge that crosses it:
+/// It is stored as the graph of its vertices and edges. A cut replaces the vertices outside of a plane by one new vertex for each
+/// edge that crosses the plane:
 ///
 /// ```text
 ///       inside                          a new vertex lies on the two planes of its edge and on the
@@ -31,51 +31,29 @@ pub(crate) struct Vertex {
 ///
 /// # Guarantees
 ///
-/// - A new vertex lies on a segment between two old ones, so that rounding cannot carry it away: clipping never
-///   leaves the body it started from by more than a rounding, whatever the planes.
-/// - A vertex exactly on a clip plane counts as inside, which is what moving the plane outwards by an infinitesimal
-///   would do. Every vertex is therefore on three planes, `F` planes have at most `2F − 4` vertices, and flat bodies,
-///   segments and points are ordinary bodies with coincident vertices.
-/// - Only comparisons with zero decide, no tolerance: scaling everything by a power of two changes no decision.
-/// - The hull of the vertices holds every point that is in the box and inside all planes, before those were
-///   [loosened](Plane::loosened), exactly.
-///
-/// # Why nothing is lost
-///
-/// Vertices are rounded, so that four of a face are in no one plane, and rounding may classify some near a clip plane in
-/// a way that no plane could. The hull holds what it must all the same. Let p be a point inside the box and all planes.
-///
-/// The edges on a plane form closed walks, for each vertex on it has two of them: so it is for a box, and a cut keeps it
-/// so, since a closed walk crosses from inside to outside an even number of times and the new vertices on a plane are
-/// joined in pairs. Any surface Σ that spans the walks of each plane is therefore closed, and p is inside of it if Σ
-/// goes around p an odd number of times. It does for the box. What a cut changes comes in closed pieces:
-///
-/// - for each plane, its walks before, its walks after, and those of what was cut off. All their vertices are on that
-///   plane, and by [`Plane::loosened`] outside of it in truth, where p is not;
-/// - the walks that were cut off and those on the clip plane. Their vertices were found outside of the loosened clip
-///   plane, or made on it, and are outside of the plane in truth, where p is not.
-///
-/// Half-spaces are convex, so that each piece can be spanned in one without p, and goes around p not at all. Hence Σ goes
-/// around p oddly after every cut, and a closed surface whose vertices had p outside of their hull would not.
-///
-/// (On the box itself vertices are on their planes exactly. A point p on its boundary is the limit of points in its
-/// interior, the slack being more than none; and along an axis on which a box is flat all vertices keep one coordinate
-/// exactly, so that it may be thought to have any extent there.)
+/// - A new vertex lies on a segment between two old ones: whatever the planes, clipping leaves the old body by no more than a
+///   rounding.
+/// - A vertex exactly on a clip plane counts as inside, as if the plane were moved outwards by an infinitesimal. So every vertex is
+///   on three planes, `F` planes have at most `2F − 4` vertices, and flat bodies, segments and points are bodies with coincident
+///   vertices, no special cases.
+/// - All decisions are comparisons with zero, without tolerance: scaling by a power of two changes none of them.
+/// - The hull of the vertices contains, exactly, every point of the box inside all planes as they were before being
+///   [loosened](Plane::loosened): `docs/numerics.md` has the proof, "Why no cut loses a point".
 #[derive(Clone, Debug)]
 pub(crate) struct Polyhedron {
     vertices: [Vertex; Self::MAX_VERTICES],
     /// The value of the last clip plane at each vertex: scratch space.
     values: [f64; Self::MAX_VERTICES],
-    /// The slots that hold a vertex.
+    /// The slots in use.
     alive: u64,
 }
 
 impl Polyhedron {
-    /// The slots. A box, a light's seven planes and a hull's ten have at most `2 · 23 − 4 = 42` vertices, and the last
-    /// cut at most 22 new ones beside the 40 before it. Scenes of many cuts, lights within planes and hulls of views with oblique
-    /// planes may have more: where there is no room, a plane does not cut.
+    /// The number of slots. A box, seven planes of a light and ten of a hull make at most `2 · 23 − 4 = 42` vertices, and the last cut
+    /// at most 22 new ones besides the 40 before it. Scenes of many cuts, lights within planes and hulls of oblique views may have
+    /// more: a plane that finds no room does not cut.
     pub(crate) const MAX_VERTICES: usize = 64;
-    /// The planes that may be named.
+    /// The number of names for planes.
     pub(crate) const MAX_PLANES: usize = 64;
 
     pub(crate) const EMPTY: Self = Self {
@@ -84,19 +62,19 @@ impl Polyhedron {
         alive: 0,
     };
 
-    /// A box, whose planes are numbered as [`box_planes`] lists them. The box may be flat.
+    /// A box, with its planes named by their index in [`box_planes`]. The box may be flat.
     pub(crate) fn from_box(min: DVec3, max: DVec3) -> Self {
         let mut body = Self::EMPTY;
         body.set_box(min, max);
         body
     }
 
-    /// Becomes empty.
+    /// Sets the body to the empty set.
     pub(crate) const fn clear(&mut self) {
         self.alive = 0;
     }
 
-    /// Becomes a box, see [`Self::from_box`].
+    /// Sets the body to a box, see [`Self::from_box`].
     pub(crate) fn set_box(&mut self, min: DVec3, max: DVec3) {
         for (corner, vertex) in (0..8).zip(&mut self.vertices) {
             let (x, y, z) = (corner & 1, corner >> 1 & 1, corner >> 2);
@@ -110,8 +88,8 @@ impl Polyhedron {
         self.alive = 0xff;
     }
 
-    /// Takes in the vertices and edges of another body, beside its own: what there is of several bodies in one list, not to
-    /// be clipped. False, and as it was, where there is no room.
+    /// Adds the vertices and edges of another body, to list those of several; the result must not be clipped. Returns false, and
+    /// changes nothing, where there is no room.
     pub(crate) fn append(&mut self, other: &Self) -> bool {
         let mut free = Bits(!self.alive);
         if free.0.count_ones() < other.alive.count_ones() {
@@ -130,7 +108,7 @@ impl Polyhedron {
         true
     }
 
-    /// How many vertices there are.
+    /// The number of vertices.
     pub(crate) const fn len(&self) -> u32 {
         self.alive.count_ones()
     }
@@ -143,7 +121,7 @@ impl Polyhedron {
         self.vertices().map(|vertex| vertex.position)
     }
 
-    /// The ends of the edges, each edge once.
+    /// The edges by their ends, each edge once.
     pub(crate) fn edges(&self) -> impl Iterator<Item = (DVec3, DVec3)> + Clone {
         Bits(self.alive).flat_map(|slot| {
             let vertex = &self.vertices[slot & LAST];
@@ -156,10 +134,8 @@ impl Polyhedron {
         self.alive == 0
     }
 
-    /// Keeps what lies inside `plane`, which is named `id`.
-    ///
-    /// Where a degenerate body would need more vertices than there are slots the plane is left out: the body is then
-    /// larger than it might be, never smaller.
+    /// Cuts off the part outside of `plane`, which gets the name `id`. A plane that needs more vertices than there are slots is left
+    /// out: the body is then larger than the exact one, never smaller.
     pub(crate) fn clip(&mut self, plane: &Plane, id: PlaneId) {
         let mut inside = 0_u64;
         for slot in Bits(self.alive) {
@@ -181,7 +157,7 @@ impl Polyhedron {
             return;
         }
 
-        // For each plane, the new vertex on it that waits for the next one.
+        // For each plane, the new vertex on it that is not yet joined to another.
         let mut waiting = [NOBODY; Self::MAX_PLANES];
         self.alive = inside;
         for outer in Bits(outside) {
@@ -197,9 +173,9 @@ impl Polyhedron {
                 above.replace_neighbour([p, q], slot as u8);
                 let position =
                     between((above.position, self.values[inner]), (below.position, self.values[outer & LAST]));
-                // Its own neighbour until it finds another: no edge at all.
+                // Its own neighbour, which is no edge, until it is joined.
                 let mut neighbours = [inner as u8, slot as u8, slot as u8];
-                // The edge that lies on p and the clip plane is across from q, and the other way round.
+                // The edge on p and the clip plane is opposite to q, and the other way round.
                 for (on, across) in [(p, 2), (q, 1)] {
                     let waits = &mut waiting[usize::from(on) & LAST];
                     if *waits == NOBODY {
@@ -218,7 +194,7 @@ impl Polyhedron {
         }
     }
 
-    /// The edges between inside and outside vertices.
+    /// The number of edges between inside and outside vertices.
     fn crossings(&self, inside: u64, outside: u64) -> u32 {
         let mut crossings = 0;
         for slot in Bits(outside) {
@@ -230,7 +206,7 @@ impl Polyhedron {
 }
 
 impl Vertex {
-    /// The neighbour along the edge on the planes `p` and `q` gives way to another. Its name would not do to find it: two
+    /// Replaces the neighbour along the edge on the planes `p` and `q`. It is found by the planes, not by its slot, because two
     /// vertices may be neighbours along two edges.
     fn replace_neighbour(&mut self, [p, q]: [PlaneId; 2], new: u8) {
         for (neighbour, across) in self.neighbours.iter_mut().zip(self.planes) {
@@ -241,8 +217,8 @@ impl Vertex {
     }
 }
 
-/// Where a function that has opposite signs at the ends of an edge is zero. From the nearer end, so that rounding moves
-/// it off the edge by no more than three roundings of the largest coordinates.
+/// The zero of a linear function with opposite signs at the ends of an edge, computed from the nearer end: rounding moves it off the
+/// edge by at most three roundings of the largest coordinates.
 fn between((a, at_a): (DVec3, f64), (b, at_b): (DVec3, f64)) -> DVec3 {
     let from = |(near, at_near): (DVec3, f64), (far, at_far): (DVec3, f64)| {
         near + (far - near) * (at_near / (at_near - at_far))
@@ -250,13 +226,13 @@ fn between((a, at_a): (DVec3, f64), (b, at_b): (DVec3, f64)) -> DVec3 {
     if at_a.abs() <= at_b.abs() { from((a, at_a), (b, at_b)) } else { from((b, at_b), (a, at_a)) }
 }
 
-/// The last slot. Slots and planes are below 64, which indexing with this mask makes plain to the compiler.
+/// The last slot, as a mask: indices masked with it need no bounds check, as slots and planes are below 64.
 const LAST: usize = Polyhedron::MAX_VERTICES - 1;
 
 /// No slot.
 const NOBODY: u8 = u8::MAX;
 
-/// The six planes of a box, in the order that [`Polyhedron::from_box`] numbers them.
+/// The six planes of a box, in the order of their names in [`Polyhedron::from_box`].
 pub(crate) fn box_planes(min: DVec3, max: DVec3) -> [Plane; 6] {
     [
         Plane::new(DVec3::X, -min.x),

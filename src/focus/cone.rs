@@ -8,21 +8,19 @@ use glam::DVec3;
 /// Why there is no such cone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum NoCone {
-    /// All that is visible is where the light is, or nearer to it than anything casts.
+    /// All receivers are at the light, or within its near distance.
     Nothing,
-    /// No frustum holds what is visible.
+    /// No frustum holds all receivers.
     Surrounded(Surrounded),
 }
 
-/// The least cosine of half the opening of a frustum, that of [`Surrounded::MAX_HALF_ANGLE`]. A light nearer to what is
-/// visible than that stands among it, as far as a single map is concerned.
+/// The cosine of [`Surrounded::MAX_HALF_ANGLE`], the least of a frustum: with a wider cone the light counts as surrounded.
 pub(crate) const MIN_MARGIN: f64 = 1.0 / 512.0;
 
-/// The axis of the narrowest cone from a light at a position around a body, and the least cosine to it.
+/// The axis of the narrowest cone from a local light around a body, and the cosine of its half angle.
 ///
-/// A corner of the body where the light is has no direction, and needs none: the edges that end there have theirs at their other
-/// ends. What is around it, up to the light's near distance, is cut off, so that w is positive on what is left. `each` is told
-/// the plane.
+/// A corner at the light itself has no direction and needs none: the other ends of its edges have theirs. The part around it up to
+/// the near distance is cut off, so that w is positive on the rest; `each` is called with the cutting plane.
 pub(crate) fn leave_corner(
     position: DVec3,
     near: f64,
@@ -54,7 +52,7 @@ pub(crate) fn leave_corner(
         if body.is_empty() {
             return Err(NoCone::Nothing);
         }
-        // The near distance may be lost in the rounding of the position.
+        // The near distance may vanish in the rounding of the position.
         if body.positions().any(|point| direction_between(position, point).is_none()) {
             return Err(surrounded(margin));
         }
@@ -62,13 +60,12 @@ pub(crate) fn leave_corner(
     Ok((axis, margin))
 }
 
-/// The unit direction from a light to a visible point. A light a few roundings away from what is visible is on its boundary,
-/// and it has none.
+/// The unit direction from a light to a receiver point; `None` where they are equal up to rounding.
 pub(crate) fn direction_between(position: DVec3, point: DVec3) -> Option<DVec3> {
     let arm = point - position;
     let distance = arm.length();
     (distance > ROUNDINGS * (point.abs() + position.abs()).max_element()).then(|| arm / distance)
 }
 
-/// What a vertex may be away from the exact one where its planes meet squarely: their slack, and its roundings.
+/// How far a vertex may be from the exact one where its planes meet at right angles: their slack, and its own rounding.
 const ROUNDINGS: f64 = 2.0 * Plane::SLACK;

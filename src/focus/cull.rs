@@ -1,4 +1,4 @@
-//! Which casters to draw: boxes and spheres against a focus body.
+//! Caster culling: boxes and spheres against a focus body.
 
 use crate::convex::{ConvexBody, Plane};
 use crate::focus::{Focus, FocusForm, farthest_corner};
@@ -8,8 +8,8 @@ use crate::input::scene::Aabb;
 use glam::{DVec3, Vec3, Vec4};
 
 impl<'a> Focus<'a> {
-    /// The casters to draw, of a scene of lists: the indices, in order, of those whose boxes may meet the tight H. None where
-    /// the fit has no map because nothing is visible or casts, and of a scene without lists.
+    /// The casters to draw, for a scene of lists: the indices, in order, of boxes that may intersect H
+    /// ([`FocusForm::ReceiverHull`]). Empty without receivers or casters, and for a scene without lists.
     ///
     /// ```
     /// use shadowfit::{Aabb, Focus, Light, Scene, View};
@@ -23,6 +23,7 @@ impl<'a> Focus<'a> {
     /// assert!(focus.casters().eq([0, 2]));
     /// # Ok::<(), shadowfit::InputError>(())
     /// ```
+    #[doc(alias = "culling")]
     pub fn casters(&self) -> impl Iterator<Item = usize> + use<'a> {
         let body = self.caster_volume(FocusForm::ReceiverHull);
         let list = self.caster_list.filter(|_| !body.is_empty());
@@ -34,10 +35,20 @@ impl<'a> Focus<'a> {
 }
 
 impl ConvexBody {
-    /// Whether a box may meet the body.
+    /// Whether a world-space box may intersect the body. Conservative: never false for a box that does; sometimes true for a box
+    /// near an edge that does not. An inverted box intersects nothing.
     ///
-    /// Never false for a box that does; sometimes true for one that does not, near an edge of the body. A box turned
-    /// inside out meets nothing.
+    /// ```
+    /// # use shadowfit::{Focus, FocusForm, Light, Scene, View};
+    /// # let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 40.0)?;
+    /// # let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
+    /// # let focus = Focus::new(&view, &Light::directional((0.4, 1.0, 0.2))?, &scene);
+    /// let body = focus.caster_volume(FocusForm::ReceiverHull);
+    /// assert!(body.intersects_aabb([3.0, 0.0, -9.0], [5.0, 4.0, -7.0])); // a tree in view
+    /// assert!(!body.intersects_aabb([3.0, 0.0, 90.0], [5.0, 4.0, 92.0])); // one behind the eye
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
+    #[doc(alias = "caster culling")]
     #[must_use]
     pub fn intersects_aabb<F: Into<f64>, G: Into<f64>>(
         &self,
@@ -45,15 +56,25 @@ impl ConvexBody {
         max: impl Into<[G; 3]>,
     ) -> bool {
         let Some((low, high)) = self.bounds() else { return false };
-        // What matters of the box lies in the body's own; the planes are loose enough for corners of that.
+        // Only the part within the body's bounds counts, and the planes' slack covers corners there.
         let (min, max) = (vector(min).max(low), vector(max).min(high));
         min.cmple(max).all() && self.planes().all(|plane| plane.at(farthest_corner(min, max, plane.normal)) >= 0.0)
     }
 
-    /// Whether a ball may meet the body.
+    /// Whether a world-space bounding sphere may intersect the body; conservative as [`Self::intersects_aabb`]. A negative radius
+    /// intersects nothing.
     ///
-    /// Never false for a ball that does; sometimes true for one that does not, near an edge of the body. A negative
-    /// radius meets nothing.
+    /// ```
+    /// # use shadowfit::{Focus, FocusForm, Light, Scene, View};
+    /// # let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 40.0)?;
+    /// # let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
+    /// # let focus = Focus::new(&view, &Light::directional((0.4, 1.0, 0.2))?, &scene);
+    /// let body = focus.caster_volume(FocusForm::ReceiverHull);
+    /// assert!(body.intersects_sphere([4.0, 2.0, -8.0], 2.5));
+    /// assert!(!body.intersects_sphere([4.0, 2.0, 91.0], 2.5));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
+    #[doc(alias = "caster culling")]
     #[must_use]
     pub fn intersects_sphere<F: Into<f64>>(&self, centre: impl Into<[F; 3]>, radius: f64) -> bool {
         let centre = vector(centre);
@@ -62,7 +83,19 @@ impl ConvexBody {
         !self.is_empty() && radius >= 0.0 && self.planes().all(inside)
     }
 
-    /// The body made ready for testing many boxes or spheres.
+    /// A culler for the body, to test many boxes or spheres: [`Culler`] has an example.
+    ///
+    /// ```
+    /// # use shadowfit::{Aabb, Focus, FocusForm, Light, Scene, View};
+    /// # let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 40.0)?;
+    /// # let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
+    /// # let focus = Focus::new(&view, &Light::directional((0.4, 1.0, 0.2))?, &scene);
+    /// let culler = focus.caster_volume(FocusForm::ReceiverHull).culler();
+    /// let mut drawn = [false];
+    /// culler.boxes(&[Aabb::new([3.0, 0.0, -9.0], [5.0, 4.0, -7.0])], &mut drawn);
+    /// assert_eq!(drawn, [true]);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn culler(&self) -> Culler {
         let mut culler = Culler {
@@ -84,25 +117,42 @@ impl ConvexBody {
     }
 }
 
-/// A body made ready for testing many boxes or spheres in f32, several at a time.
+/// Bulk caster culling: tests many boxes or spheres against a body in f32, eight at a time.
 ///
-/// As [`ConvexBody::intersects_aabb`] and [`ConvexBody::intersects_sphere`], it errs on the side of drawing.
+/// Conservative as [`ConvexBody::intersects_aabb`] and [`ConvexBody::intersects_sphere`]: it errs on the side of drawing.
+///
+/// ```
+/// use shadowfit::{Aabb, Focus, FocusForm, Light, Scene, View, glam::Vec4};
+/// # let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 40.0)?;
+/// # let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
+/// # let focus = Focus::new(&view, &Light::directional((0.4, 1.0, 0.2))?, &scene);
+///
+/// let culler = focus.caster_volume(FocusForm::ReceiverHull).culler();
+/// let (tree, behind) = (Aabb::new([3.0, 0.0, -9.0], [5.0, 4.0, -7.0]), Aabb::new([3.0, 0.0, 90.0], [5.0, 4.0, 92.0]));
+/// let mut drawn = [false; 2];
+/// culler.boxes(&[tree, behind], &mut drawn);
+/// assert_eq!(drawn, [true, false]);
+/// culler.spheres(&[Vec4::new(4.0, 2.0, 91.0, 2.5), Vec4::new(4.0, 2.0, -8.0, 2.5)], &mut drawn);
+/// assert_eq!(drawn, [false, true]);
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
+#[doc(alias = "caster culling")]
+#[doc(alias = "frustum culling")]
 #[derive(Clone, Debug)]
 pub struct Culler {
     planes: [CullPlane; Self::MAX_PLANES],
     len: usize,
-    /// A little more than the body's own bounds.
+    /// The body's bounds, rounded outwards.
     min: Vec3,
     max: Vec3,
 }
 
-/// A plane in f32, moved outwards by the rounding of its evaluation inside the body's bounds.
+/// A plane in f32, moved outwards by the rounding of its evaluation within the body's bounds.
 #[derive(Clone, Copy, Debug, Default)]
 struct CullPlane {
     normal: [f32; 3],
     offset: f32,
-    /// Which corner of a box is the farthest along the normal: for each axis, 0 for its least coordinate, 1 for its
-    /// largest.
+    /// The corner of a box that lies farthest along the normal: for each axis 0 for `min`, 1 for `max`.
     farthest: [usize; 3],
 }
 
@@ -120,16 +170,16 @@ impl CullPlane {
     }
 }
 
-/// How many are tested at a time.
+/// The number of boxes or spheres tested at a time.
 const LANES: usize = 8;
 
 impl Culler {
     const MAX_PLANES: usize = 64;
 
-    /// Sets `meets[i]` to whether box i may meet the body, for as many as both slices have.
+    /// Sets `meets[i]` to whether world-space box i may intersect the body, up to the end of the shorter slice.
     pub fn boxes(&self, boxes: &[Aabb], meets: &mut [bool]) {
         for (boxes, meets) in boxes.chunks(LANES).zip(meets.chunks_mut(LANES)) {
-            // By axis, by end (least, largest), by lane: what of each box lies in the body's bounds.
+            // By axis, by end (min, max), by lane: the part of each box within the body's bounds.
             let mut corners = [[[0.0_f32; LANES]; 2]; 3];
             let mut least = [f32::NEG_INFINITY; LANES];
             for (lane, one) in boxes.iter().enumerate() {
@@ -154,8 +204,8 @@ impl Culler {
         }
     }
 
-    /// Sets `meets[i]` to whether the ball with centre (x, y, z) and radius w of element i may meet the body, for as
-    /// many as both slices have.
+    /// Sets `meets[i]` to whether world-space sphere i, with centre (x, y, z) and radius w, may intersect the body, up to the end of
+    /// the shorter slice.
     pub fn spheres(&self, spheres: &[Vec4], meets: &mut [bool]) {
         const UNITS: f32 = 8.0 / 16_777_216.0;
         for (spheres, meets) in spheres.chunks(LANES).zip(meets.chunks_mut(LANES)) {
@@ -163,7 +213,7 @@ impl Culler {
             let mut least = [f32::NEG_INFINITY; LANES];
             for (lane, ball) in spheres.iter().enumerate() {
                 [x[lane], y[lane], z[lane]] = ball.truncate().to_array();
-                // The planes allow for rounding inside the body's bounds, and a centre may be anywhere.
+                // The planes' slack covers rounding within the body's bounds; a centre may be anywhere.
                 reach[lane] = ball.w + UNITS * (ball.truncate().abs().element_sum() + ball.w);
                 least[lane] = if ball.w >= 0.0 && self.len > 0 { 0.0 } else { -1.0 };
             }
@@ -182,21 +232,21 @@ impl Culler {
 }
 
 impl Light {
-    /// The largest near distance that cuts off no caster, in world units: how far the nearest of some boxes is from a light at a
-    /// position, of those that are not wholly outside of what it reaches. 0 where the light stands in one; `None` for a directional
-    /// light, which has no near distance, and where no box is reached.
+    /// The largest near distance that clips no caster, in world units: the distance from a local light to the nearest of the boxes
+    /// within its region. 0 where the light stands in a box; `None` for a directional light, and where no box is within reach.
     ///
-    /// A smaller near distance buys nothing: depth is hyperbolic, and the air next to the light takes most of its steps
+    /// Use it for `near`: hyperbolic depth spends most of its steps close to the light, and a smaller near distance wastes them on air
     /// ([`ShadowMap::depth_beside_light`](crate::ShadowMap::depth_beside_light)).
     ///
     /// ```
     /// use shadowfit::{Aabb, Light};
     ///
-    /// let lamp = Light::point((0.0, 3.0, 0.0), 0.05, 20.0)?;
+    /// let bulb = Light::point((0.0, 3.0, 0.0), 0.05, 20.0)?;
     /// let table = Aabb::new([-1.0, 0.0, -1.0], [1.0, 1.0, 1.0]);
-    /// assert_eq!(lamp.distance_to_casters(&[table]), Some(2.0));
+    /// assert_eq!(bulb.distance_to_casters(&[table]), Some(2.0));
     /// # Ok::<(), shadowfit::InputError>(())
     /// ```
+    #[doc(alias = "near plane")]
     #[must_use]
     pub fn distance_to_casters(&self, casters: &[Aabb]) -> Option<f64> {
         let position = self.position()?;

@@ -1,4 +1,8 @@
-//! The focus body H: every point that must appear in the shadow map.
+//! The focus: view, light and scene brought together, the receiver volume R and the caster volume H (the focus body).
+//!
+//! [`Focus`] and [`FocusForm`] are at the root of the crate; this module has the bodies, planes and
+//! cullers that they answer with, and [`SharedFocus`](crate::multiview::SharedFocus) serves several views. `docs/concepts.md`
+//! explains R and H.
 
 use crate::convex::{Bits, PlaneId, Polyhedron};
 pub(crate) mod cone;
@@ -14,25 +18,38 @@ use crate::input::view::{FrustumPlanes, View};
 pub use cull::Culler;
 use glam::{DVec3, DVec4};
 
-/// Two forms of the focus body.
+/// The two forms of the caster volume H.
+///
+/// ```
+/// use shadowfit::{Focus, FocusForm, Light, Scene, View};
+///
+/// let view = View::perspective((0.0, 1.7, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 500.0)?;
+/// let scene = Scene::from_box((-50.0, 0.0, -50.0), (50.0, 10.0, 50.0))?;
+/// let focus = Focus::new(&view, &Light::directional((0.4, 1.0, 0.2))?, &scene);
+/// let [view_hull, receiver_hull] =
+///     [FocusForm::ViewHull, FocusForm::ReceiverHull].map(|form| focus.caster_volume(form).volume());
+/// assert!(receiver_hull < view_hull);
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
+#[doc(alias = "focus body")]
+#[doc(alias = "intersection body")]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum FocusForm {
-    /// `hull(V, l) ∩ S ∩ L`, as the paper has it (Stamminger & Drettakis 2002, §4.1). Right even when S does not hold
-    /// every receiver.
+    /// `hull(V, l) ∩ S ∩ L` (Stamminger & Drettakis 2002, §4.1): correct also where S does not hold every receiver.
     ViewHull,
-    /// `hull(V ∩ S ∩ L, l) ∩ S ∩ L`: only what can shadow something that is in S, lit and in view. A part of the
-    /// paper's body, and a much smaller one when the far plane lies beyond the scene.
+    /// `hull(R, l) ∩ S ∩ L` with R = V ∩ S ∩ L: casters of shadows on receivers only. It is contained in [`Self::ViewHull`], and
+    /// much smaller where the far plane lies beyond the scene.
     #[default]
     ReceiverHull,
 }
 
-/// A view, a light and a scene brought together: what is visible and lit, and what can cast on it.
+/// The focus: a view, a light and a scene brought together, with the volumes of their receivers and casters.
 ///
 /// ```text
-///                l            R = V ∩ S ∩ L      what is visible and can be lit
-///                ∗            H = hull(R, l) ∩ S ∩ L
-///               ╱ ╲           what must be in the map
+///                l            R = V ∩ S ∩ L             the receiver volume
+///                ∗            H = hull(R, l) ∩ S ∩ L    the caster volume, which the map must hold
+///               ╱ ╲
 ///     ┌────────╱───╲──── S
 ///     │       ╱  H  ╲  │
 ///   eye ◁────╱───────╲─┤
@@ -40,30 +57,75 @@ pub enum FocusForm {
 ///     └──────╲─────────┘
 /// ```
 ///
-/// Making one costs a few copies, or, for a scene of lists, one pass over the receivers and one over the casters.
-/// Bodies are made when asked for.
+/// # What a focus can do
+///
+/// | topic | methods | source |
+/// |---|---|---|
+/// | build it | [`Focus::new`], [`view`](Focus::view), [`light`](Focus::light) | `src/focus/mod.rs` |
+/// | volumes | [`receiver_volume`](Focus::receiver_volume) (R), [`caster_volume`](Focus::caster_volume) (H) | `src/focus/mod.rs` |
+/// | casters to draw | [`casters`](Focus::casters); for other lists [`ConvexBody::intersects_aabb`], [`ConvexBody::culler`] | `src/focus/cull.rs` |
+/// | shadow map | [`fit`](Focus::fit), [`fit_warm`](Focus::fit_warm) from the previous frame's map | `src/fit/mod.rs` |
+/// | quality | [`aliasing_lower_bound`](Focus::aliasing_lower_bound) | `src/map/lower_bound.rs` |
+/// | quality of a map | [`ShadowMap::aliasing_over`](crate::ShadowMap::aliasing_over), [`ShadowMap::aliasing_over_receivers`](crate::ShadowMap::aliasing_over_receivers) | `src/map/aliasing.rs` |
+/// | lights all around | [`paraboloids`](Focus::paraboloids), [`paraboloids_about`](Focus::paraboloids_about) | `src/omni/paraboloid/fit.rs` |
+/// | virtual camera | [`VirtualCamera::new`](crate::warp::VirtualCamera::new) | `src/warp/virtual_camera.rs` |
+///
+/// ```
+/// use shadowfit::{Focus, FocusForm, Light, Scene, Settings, View};
+///
+/// let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 500.0)?;
+/// let sun = Light::directional((0.4, 1.0, 0.2))?;
+/// let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
+/// let focus = Focus::new(&view, &sun, &scene);
+/// assert_eq!((focus.view(), focus.light()), (&view, &sun));
+///
+/// let (receivers, casters) = (focus.receiver_volume(), focus.caster_volume(FocusForm::ReceiverHull));
+/// assert!(receivers.vertices().iter().all(|&point| casters.intersects_sphere(point, 1e-9)));
+/// let map = focus.fit(&Settings::default()).into_map().expect("receivers and casters");
+/// assert!(map.clip_from_world().is_finite());
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
+///
+/// [`Focus::new`] copies its arguments; for a scene of lists it also passes once over the receivers and once over the casters.
+/// Bodies are built when asked for.
+#[doc(alias = "PSR")]
+#[doc(alias = "potential shadow receivers")]
+#[doc(alias = "focusing")]
+#[doc(alias = "fit to scene")]
+#[doc(alias = "fit to view")]
 #[derive(Clone, Debug)]
 pub struct Focus<'a> {
     pub(crate) view: View,
     pub(crate) light: Light,
     view_planes: FrustumPlanes,
     light_planes: LightPlanes,
-    /// `None`: nothing that receives is in view and lit.
+    /// `None`: no receiver is in view and within reach of the light.
     pub(crate) receivers: Option<Region<'a>>,
-    /// `None`: nothing can cast on what is visible.
+    /// `None`: no caster can shadow a receiver.
     pub(crate) casters: Option<Region<'a>>,
     /// The list of casters, where casters and receivers have bounds of their own.
     pub(crate) caster_list: Option<Boxes<'a>>,
-    /// A ball around all that several views see, where this stands for them: its middle and its radius.
+    /// Centre and radius of a ball around several views, where this focus stands for them.
     around: Option<(DVec3, f64)>,
 }
 
-/// The names of the planes of V, or of a window, begin here. Those of L follow those of the region, and those of a hull those of
-/// L, so that as many as can be have one.
+/// The first name for planes of V, or of a window. Planes of L are named after those of the region, and planes of a hull after
+/// those of L, which leaves as many names as possible.
 pub(crate) const VIEW_IDS: PlaneId = Region::MAX_PLANES + Light::MAX_PLANES as PlaneId;
 
 impl<'a> Focus<'a> {
-    /// Brings a view, a light and a scene together.
+    /// Brings a view, a light and a scene together. For a scene of lists, bounds the receivers in view and within the light's
+    /// reach, and the casters that can shadow them.
+    ///
+    /// ```
+    /// use shadowfit::{Focus, Light, Scene, View};
+    ///
+    /// let view = View::perspective((0.0, 1.7, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 500.0)?;
+    /// let behind = Scene::from_box((-5.0, 0.0, 10.0), (5.0, 3.0, 20.0))?;
+    /// let focus = Focus::new(&view, &Light::directional((0.4, 1.0, 0.2))?, &behind);
+    /// assert!(focus.receiver_volume().is_empty());
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     #[must_use]
     pub fn new(view: &View, light: &Light, scene: &Scene<'a>) -> Self {
         let mut focus = Self {
@@ -94,8 +156,8 @@ impl<'a> Focus<'a> {
         focus
     }
 
-    /// Bounds, from the lists, the receivers that can be visible and lit, then the casters, with coordinates no larger than
-    /// `extent`, that can touch those.
+    /// Bounds the receivers in view and within the light's reach, then the casters that can shadow them; `extent` holds the largest
+    /// absolute coordinates of the casters.
     fn gather(&mut self, casters: &Boxes<'_>, receivers: &Boxes<'_>, extent: DVec3) {
         let lit_view = || self.view_planes.iter().chain(self.light_planes.iter()).copied();
         self.receivers = union(receivers, lit_view);
@@ -104,19 +166,32 @@ impl<'a> Focus<'a> {
         }
     }
 
-    /// The view that was brought in.
+    /// The view V.
     #[must_use]
     pub const fn view(&self) -> &View {
         &self.view
     }
 
-    /// The light that was brought in.
+    /// The light l, with its region L.
     #[must_use]
     pub const fn light(&self) -> &Light {
         &self.light
     }
 
-    /// `R = V ∩ S ∩ L`: what is visible and can be lit.
+    /// The receiver volume `R = V ∩ S ∩ L`, in world space: the part of the scene in view and within the light's reach. Empty
+    /// without receivers; the map's window is fitted to it.
+    ///
+    /// ```
+    /// use shadowfit::{Focus, Light, Scene, View};
+    ///
+    /// let view = View::orthographic((0.0, 50.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0), 10.0, 1.0, 0.0, 100.0)?;
+    /// let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 5.0, 200.0))?;
+    /// let focus = Focus::new(&view, &Light::directional((0.4, 1.0, 0.2))?, &scene);
+    /// assert!((focus.receiver_volume().volume() - 20.0 * 20.0 * 5.0).abs() < 1e-6);
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
+    #[doc(alias = "PSR")]
+    #[doc(alias = "potential shadow receivers")]
     #[must_use]
     pub fn receiver_volume(&self) -> ConvexBody {
         let (mut body, mut planes) = (Polyhedron::EMPTY, [Plane::ONE; Polyhedron::MAX_PLANES]);
@@ -124,22 +199,36 @@ impl<'a> Focus<'a> {
         ConvexBody::new(&body, planes)
     }
 
-    /// R, less what is nearer to a light in a corner of it than the light's near distance: the map is for no more.
+    /// R without the points within the near distance of a light that stands in a corner of R: the map holds no more.
     pub(crate) fn visible_beyond_light(&self) -> ConvexBody {
         let (mut body, mut planes) = (Polyhedron::EMPTY, [Plane::ONE; Polyhedron::MAX_PLANES]);
         self.cut_visible(&mut body, |plane, id| planes[usize::from(id)] = plane);
         if let Some(position) = self.light.position() {
-            // Where there is no such corner, or no map, R is as it was.
+            // Without such a corner, or without a map, R stays as it is.
             let _ =
                 leave_corner(position, self.light.near(), &mut body, |plane, id| planes[usize::from(id)] = plane);
         }
         ConvexBody::new(&body, planes)
     }
 
-    /// The focus body in one of its forms.
+    /// The caster volume H, the focus body, in world space: all casters whose shadow can fall on R touch it. Empty without
+    /// receivers.
     ///
-    /// It bounds the casters: with a scene of lists, S here is the bound of those casters that can touch what is
-    /// visible.
+    /// With a scene of lists, S is here the bounds of the casters that can shadow R.
+    ///
+    /// ```
+    /// use shadowfit::{Focus, FocusForm, Light, Scene, View};
+    ///
+    /// let view = View::perspective((0.0, 1.7, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 40.0)?;
+    /// let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
+    /// let focus = Focus::new(&view, &Light::directional((0.0, 1.0, 1.0))?, &scene);
+    /// let casters = focus.caster_volume(FocusForm::ReceiverHull);
+    /// assert!(casters.intersects_aabb((-1.0, 20.0, 10.0), (1.0, 25.0, 12.0))); // behind the eye, towards the sun
+    /// assert!(!casters.intersects_aabb((-1.0, 0.0, 10.0), (1.0, 5.0, 12.0)));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
+    #[doc(alias = "focus body")]
+    #[doc(alias = "intersection body")]
     #[must_use]
     pub fn caster_volume(&self, form: FocusForm) -> ConvexBody {
         let (mut body, mut planes) = (Polyhedron::EMPTY, [Plane::ONE; Polyhedron::MAX_PLANES]);
@@ -147,8 +236,8 @@ impl<'a> Focus<'a> {
         ConvexBody::new(&body, planes)
     }
 
-    /// What stands for several of its kind, of one light and one scene: seen by one view, with all of their receivers and
-    /// casters, and a ball around all that they see.
+    /// A focus that stands for several, of one light and one scene: with one view, the bounds of all their receivers and casters,
+    /// and a ball around all their views.
     pub(crate) fn standing_for(
         &self,
         view: View,
@@ -158,18 +247,18 @@ impl<'a> Focus<'a> {
         Self { view, receivers, casters, around, ..self.clone() }
     }
 
-    /// A ball around V, or around all views that this stands for; none without an end.
+    /// A ball around V, or around all views that this focus stands for; `None` for an infinite far plane.
     pub(crate) fn ball(&self, image_height: u32) -> Option<(DVec3, f64)> {
         let around = self.around.filter(|(_, radius)| radius.is_finite());
         if self.around.is_some() { around } else { self.view.ball(image_height) }
     }
 
-    /// S itself, unless casters and receivers have lists: what is known of those changes with the view.
+    /// S, unless the scene comes as lists: their bounds change with the view.
     pub(crate) fn scene(&self) -> Option<&Region<'a>> {
         if self.caster_list.is_some() { None } else { self.receivers.as_ref() }
     }
 
-    /// Calls `each` with the planes of S and L that bound what is visible besides the view's own.
+    /// Calls `each` with the planes of S and L, which bound R besides the view's own.
     pub(crate) fn for_each_plane(&self, mut each: impl FnMut(Plane)) {
         if let Some(region) = &self.receivers {
             region.for_each_plane(|plane, _| each(plane));
@@ -177,7 +266,7 @@ impl<'a> Focus<'a> {
         self.light_planes.iter().for_each(|plane| each(*plane));
     }
 
-    /// Makes R of any body, telling `each` which planes bound it.
+    /// Sets a body to R and calls `each` with the planes that cut it.
     pub(crate) fn cut_visible(&self, body: &mut Polyhedron, each: impl FnMut(Plane, PlaneId)) {
         body.clear();
         if let Some(region) = &self.receivers {
@@ -185,7 +274,7 @@ impl<'a> Focus<'a> {
         }
     }
 
-    /// Makes V ∩ L ∩ `region` of any body.
+    /// Sets a body to V ∩ L ∩ `region`.
     pub(crate) fn cut_visible_part(
         &self,
         body: &mut Polyhedron,
@@ -196,7 +285,7 @@ impl<'a> Focus<'a> {
         clip_all(body, self.view_planes.as_slice(), VIEW_IDS, extent, &mut each);
     }
 
-    /// Makes H of any body, telling `each` which planes bound it.
+    /// Sets a body to H and calls `each` with the planes that cut it.
     pub(crate) fn cut_body(&self, body: &mut Polyhedron, form: FocusForm, mut each: impl FnMut(Plane, PlaneId)) {
         body.clear();
         let Some(region) = &self.casters else { return };
@@ -216,7 +305,7 @@ impl<'a> Focus<'a> {
         }
     }
 
-    /// Makes S ∩ L of any body. Returns the largest absolute coordinates in S.
+    /// Sets a body to S ∩ L. Returns the largest absolute coordinates in S.
     pub(crate) fn cut_lit(
         &self,
         body: &mut Polyhedron,
@@ -238,14 +327,14 @@ impl<'a> Focus<'a> {
 
     /// hull(R, l) within `extent`, or `None` when R is empty.
     fn hull_of_visible(&self, extent: DVec3) -> Option<PlaneList> {
-        // Planes that bound the casters anyway need not bound them twice.
+        // Planes that bound the casters anyway are left out.
         let of_light = self.light_ids(self.receivers.as_ref()?);
         let known = if self.caster_list.is_some() { of_light } else { 0..of_light.end };
         PlaneList::hull_of_body(&self.receiver_volume(), self.light.homogeneous(), extent, &known)
     }
 }
 
-/// Clips by planes whose names begin at `first`, each moved outwards by what rounding can do.
+/// Clips by planes with names from `first` on, each moved outwards by the bound on rounding.
 pub(crate) fn clip_all(
     body: &mut Polyhedron,
     planes: &[Plane],
@@ -260,7 +349,7 @@ pub(crate) fn clip_all(
     }
 }
 
-/// The bound of those boxes that are not wholly outside one of the planes.
+/// The bounds of all boxes that no plane excludes.
 fn union<P: Iterator<Item = Plane>>(boxes: &Boxes<'_>, planes: impl Fn() -> P) -> Option<Region<'static>> {
     let (mut lowest, mut highest) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     boxes.for_each(|_, DAabb { min, max }| {
@@ -278,7 +367,7 @@ pub(crate) fn farthest_corner(min: DVec3, max: DVec3, direction: DVec3) -> DVec3
     DVec3::select(direction.cmpge(DVec3::ZERO), max, min)
 }
 
-/// The planes of a hull with the light, as half-spaces without topology.
+/// The planes of a hull with the light, as half-spaces without topology (`docs/design.md`, section 3).
 ///
 /// Keep each plane π of the body with π·l ≥ 0; for each pair that meets in an edge with πᵢ·l > 0 > πⱼ·l add
 ///
@@ -286,16 +375,11 @@ pub(crate) fn farthest_corner(min: DVec3, max: DVec3, direction: DVec3) -> DVec3
 ///     πⱼ (πᵢ·l) − πᵢ (πⱼ·l)
 /// ```
 ///
-/// which passes through their edge and through l (Fourier–Motzkin elimination of the ray's parameter). No division, no
-/// walk around the silhouette, point and directional lights alike. Both factors are positive, so that the sum contains
-/// the body whatever rounding did to them: a light in the plane of a face, on an edge, or at the eye of a frustum needs
-/// no care.
-///
-/// It contains the hull if it passes l too, and what counts there is how exact the factors are in themselves. A factor
-/// that is off by ρ of itself moves the sum at a point Y by no more than ρ times its term at Y; one off by so much in
-/// absolute terms turns the sum about the edge, which may be as far from Y as the far plane is, and misses Y by any
-/// amount. So the values are [right to a few roundings of themselves](Plane::exactly_on), and the slack that each plane
-/// brings along covers them at Y; where a sum of planes cancels, their slack does not.
+/// which passes through their edge and through l (Fourier–Motzkin elimination of the ray's parameter). Both factors are positive,
+/// so that the sum contains the body whatever their rounding: a light in the plane of a face, on an edge or at the eye of a
+/// frustum is no special case. For the sum to pass l, and so to contain the hull, the *relative* error of the factors counts
+/// (`docs/numerics.md`): they are computed to [a few roundings of themselves](Plane::exactly_on), which the slack of the planes
+/// covers.
 #[derive(Clone, Debug)]
 struct PlaneList {
     planes: [Plane; Self::MAX],
@@ -303,7 +387,7 @@ struct PlaneList {
 }
 
 impl PlaneList {
-    /// More than hulls have: planes past them are left out, which makes the hull larger.
+    /// More planes than hulls have; any beyond are left out, which makes the hull larger.
     const MAX: usize = 39;
 
     const EMPTY: Self = Self { planes: [Plane::ONE; Self::MAX], len: 0 };
@@ -316,12 +400,12 @@ impl PlaneList {
     }
 
     fn push_silhouette(&mut self, towards: (Plane, f64), away: (Plane, f64)) {
-        // By their sum, so that factors of any size keep their digits.
+        // Divided by their sum, against overflow and underflow.
         let sum = towards.1 - away.1;
         self.push(away.0 * (towards.1 / sum) - towards.0 * (away.1 / sum));
     }
 
-    /// The silhouettes between the planes of a body that face the light and those that do not, where they `meet`.
+    /// Adds silhouette planes: one for every pair of planes that `meet`, one facing the light and the other not.
     fn push_silhouettes(
         &mut self,
         planes: &[(Plane, f64)],
@@ -338,10 +422,9 @@ impl PlaneList {
         }
     }
 
-    /// hull(V, l) within S, whose largest absolute coordinates are `extent`. A frustum's edges are known: planes 0 and 1,
-    /// 2 and 3, 4 and 5 face each other and all others meet. With oblique planes any two may meet; a pair that does not adds
-    /// a plane around the hull. An infinite far plane is the plane at infinity, which a
-    /// light at a position is inside of: hull(V, l) then holds all of V moved to begin at l.
+    /// hull(V, l) within S, with largest absolute coordinates `extent`. Of a frustum's planes 0 and 1, 2 and 3, 4 and 5 are opposite
+    /// and all other pairs meet. With oblique planes any two may meet; a pair that does not only adds a plane around the hull. An
+    /// infinite far plane is the plane at infinity, with local lights inside: hull(V, l) then holds V translated to l.
     fn hull_of_frustum(frustum: &FrustumPlanes, l: DVec4, extent: DVec3) -> Self {
         let mut hull = Self::EMPTY;
         let all = frustum.with_infinity();
@@ -380,14 +463,14 @@ impl PlaneList {
                 hull.push(plane);
             }
         }
-        // A segment's ends have no edge in common, and bound its hull with a light in line with it all the same.
+        // The end planes of a segment share no edge, but bound its hull with a light in line with it.
         let is_segment = body.vertices().len() == 2;
         hull.push_silhouettes(&with_values, towards, away, |i, j| is_segment || body.meet(i, j));
         Some(hull)
     }
 }
 
-/// A plane, moved outwards by what rounding can do inside of `extent`, and its value at l before that.
+/// A plane moved outwards by the bound on rounding within `extent`, and the value at l of the plane itself.
 fn with_value(plane: Plane, l: DVec4, extent: DVec3) -> (Plane, f64) {
     (plane.loosened(extent), plane.exactly_on(l))
 }

@@ -1,4 +1,4 @@
-//! A view narrowed to what there is to be seen.
+//! Narrowing a view to its receivers.
 
 use crate::convex::Polyhedron;
 use crate::focus::{VIEW_IDS, clip_all, farthest_corner};
@@ -8,17 +8,17 @@ use crate::math::bounds::{Interval, least, most};
 use glam::DVec3;
 
 impl View {
-    /// The view between the nearest and the farthest point of the receivers in it; `None` where there is none.
+    /// The view with near and far at its nearest and farthest receiver point; `None` without receivers in view.
     ///
-    /// A warp follows the view from its near plane on, so that a near plane in the air, before the first receiver, wastes texels
-    /// there. What a read-back of the depth buffer says (PSM §6) the boxes say as well, less exactly. Of lists only the
-    /// receivers count, each cut by the view; of any other scene all of it. A receiver that no light reaches counts too.
+    /// A warp follows the view from its near plane on: a near plane in the air, before the first receiver, wastes texels there
+    /// (`docs/warps.md`). Boxes give the range of depths as a depth buffer read back does (Stamminger & Drettakis 2002, §6), less
+    /// exactly. Of lists only receivers count, each clipped by the view, whether a light reaches them or not; of other scenes all.
     ///
     /// ```
     /// use shadowfit::{Aabb, Scene, View};
     ///
     /// let view = View::perspective((0.0, 2.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, f64::INFINITY)?;
-    /// // One before the eye, one beside the view.
+    /// // One in front of the eye, one beside the view.
     /// let receivers = [Aabb::new([-4.0, 0.0, -30.0], [4.0, 3.0, -20.0]), Aabb::new([50.0, 0.0, -9.0], [51.0, 1.0, -8.0])];
     /// let narrowed = view.narrowed_to(&Scene::new(&[], &receivers)?).expect("one is in view");
     /// assert!((narrowed.near() - 20.0).abs() < 1e-9 && (narrowed.far() - 30.0).abs() < 1e-9);
@@ -39,25 +39,25 @@ impl View {
         if found.min > found.max {
             return None;
         }
-        // Room for the rounding of all this and of the planes at these depths.
+        // Room for the rounding of depths and of the planes there.
         let slack = 64.0 * f64::EPSILON * (self.forward().abs().dot(extent) + self.eye().abs().element_sum());
         let (near, far) = (most(self.near(), found.min - slack), least(self.far(), found.max + slack));
-        // What is no deeper than that has no range of its own: the view's own does.
+        // Receivers of no extent in depth leave the view as it is.
         self.narrowed(near, far).ok().or(Some(*self))
     }
 }
 
-/// The range of depths so far.
+/// The search for the range of depths.
 struct Search<'a> {
     view: &'a View,
     body: Polyhedron,
     found: Interval,
-    /// The largest absolute coordinates of what was cut.
+    /// The largest absolute coordinates of the receivers found.
     extent: DVec3,
 }
 
 impl Search<'_> {
-    /// A box, unless all that it could add has been found.
+    /// Includes a box, unless it cannot widen the range.
     fn visit_box(&mut self, min: DVec3, max: DVec3) {
         let forward = self.view.forward();
         let depth = |along| self.view.depth(farthest_corner(min, max, along));

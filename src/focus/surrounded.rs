@@ -1,19 +1,18 @@
-//! Lights that no single frustum serves.
+//! Lights with receivers all around.
 
 use crate::math::angle;
 use core::fmt;
 use glam::DVec2;
 
-/// The light stands among what is visible and lit: no cone from it that is narrower than a half space, by a little, holds all of
-/// that, and so no single frustum does.
+/// The light stands among its receivers: no cone narrower than about a half space holds them all, so that no single map can.
 ///
-/// [`Self::half_angle`] says how far the light is from being served: one map serves half angles up to
-/// [`Self::MAX_HALF_ANGLE`]. So a point light above the middle of a floor that is 20 wide, all of it in view, needs to be 0.0196
-/// above it; a point light in a corner of a box is served, on an edge or a face of one it is not.
+/// [`Self::half_angle`] is that of the narrowest cone around R; one map serves up to [`Self::MAX_HALF_ANGLE`]. Above the middle of
+/// a floor 20 wide, all of it in view, a point light must be at least 0.0196 high; in a corner of a box it is served, on an edge or
+/// a face it is not.
 ///
-/// What serves instead: the light cut into parts, one fit each (the faces of a cube, [`Light::cube_face`](crate::Light::cube_face), or
-/// [`Light::spot`](crate::Light::spot)s where it is needed), or, for a [`Light::hemisphere`](crate::Light::hemisphere) or a pair of them,
-/// paraboloid maps (Brabec, Annen & Seidel 2002).
+/// Use several maps instead: the faces of a cube ([`Light::cube_face`](crate::Light::cube_face)), [`Light::spot`](crate::Light::spot)s
+/// where light is needed, or paraboloid maps of a [`Light::hemisphere`](crate::Light::hemisphere) or a pair (Brabec, Annen & Seidel
+/// 2002); `docs/lights-all-around.md` compares them.
 ///
 /// ```
 /// use shadowfit::{Light, Outcome, Scene, Settings, Surrounded, View, fit};
@@ -33,18 +32,18 @@ pub struct Surrounded {
 }
 
 impl Surrounded {
-    /// The largest half angle of a cone that one map serves, in radians: arccos 1/512, 89.89°. A frustum's tangent is 512 there.
+    /// The largest half angle of a cone that one map serves, in radians: arccos 1/512, 89.89°, a tangent of 512.
     pub const MAX_HALF_ANGLE: f64 = 1.568_843_200_553_131;
 
-    /// From the cosine of half of the narrowest cone.
+    /// From the cosine of the half angle.
     pub(crate) fn by(cosine: f64) -> Self {
         let sine = DVec2::new(1.0 - cosine * cosine, 0.0).sqrt().x;
         Self { half_angle: angle::of_vector(cosine, sine) }
     }
 
-    /// Half of the angle of the narrowest cone from the light that holds all that is visible and lit, in radians: more than
-    /// [`Self::MAX_HALF_ANGLE`], unless the light's near distance is lost in the rounding of its position, and π/2 where every
-    /// plane through the light has some of it on both sides.
+    /// The half angle of the narrowest cone from the light around R, in radians. It exceeds [`Self::MAX_HALF_ANGLE`], unless the
+    /// light's near distance vanishes in the rounding of its position, and is π/2 where R has points on both sides of every plane
+    /// through the light.
     #[must_use]
     pub const fn half_angle(&self) -> f64 {
         self.half_angle
@@ -55,7 +54,7 @@ impl fmt::Display for Surrounded {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "the light stands among what is visible: {:.3}° from the axis of the narrowest cone around it, where one map \
+            "the light stands among its receivers: the narrowest cone around them has a half angle of {:.3}°, and one map \
              holds {:.3}°; fit the faces of a cube around the light, or use paraboloid maps",
             self.half_angle.to_degrees(),
             Self::MAX_HALF_ANGLE.to_degrees(),

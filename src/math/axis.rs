@@ -1,25 +1,22 @@
-//! The axis of a single frustum: the direction from a light that has everything visible in front of it by the widest
-//! margin.
+//! The axis of the narrowest cone around directions.
 
 use crate::math::bounds::least;
 use glam::DVec3;
 
-/// The unit direction g that maximises the least `g · u` over unit directions, and that least value: the cosine of half
-/// the opening of the narrowest cone around all of them, or nothing when they surround the light.
+/// The unit vector g that maximises the least `g · u` over unit vectors u, and that least value: the axis of the narrowest cone
+/// around them and the cosine of its half angle. `None` where no half space holds them.
 ///
-/// It points to the point of their convex hull nearest to the origin (Wolfe 1976), and depends on the directions
-/// continuously. Lengths decide nothing on the way: next to the nearest point they stay the same to second order, and
-/// roundings of them would leave half of its digits to chance. How far a direction is beyond a supporting plane is of
-/// first order.
+/// It points to the point of their convex hull nearest to the origin (Wolfe 1976) and is continuous in the directions. Decisions
+/// compare distances from a supporting plane, not lengths: near the nearest point a length is constant to second order, so that
+/// its rounding would cost half of the digits.
 pub(crate) fn widest_margin(directions: &[DVec3]) -> Option<(DVec3, f64)> {
-    /// Each step adds one direction and shortens the distance to the hull, so that the steps end by themselves but for
-    /// rounding; this says that there is an end.
+    /// Each step shortens the distance to the hull, so that the loop ends by itself but for rounding; this bounds it.
     const MAX_STEPS: usize = 64;
     let mut support = Support { points: [*directions.first()?; 3], len: 1 };
     let mut nearest = support.points[0];
     for _ in 0..MAX_STEPS {
         let (deepest, depth) = deepest(directions, nearest)?;
-        // Directions this close to the supporting plane are on it but for rounding.
+        // Closer to the supporting plane than this, a direction is on it but for rounding.
         if depth >= nearest.length_squared() - 4.0 * f64::EPSILON || support.contains(deepest) {
             break;
         }
@@ -47,7 +44,7 @@ fn deepest(directions: &[DVec3], axis: DVec3) -> Option<(DVec3, f64)> {
     directions.get(at).map(|&direction| (direction, depth))
 }
 
-/// The corners, at most three, of the face of the hull that is nearest to the origin so far.
+/// The one to three corners of the face of the hull nearest to the origin so far.
 #[derive(Clone, Copy)]
 struct Support {
     points: [DVec3; 3],
@@ -59,8 +56,8 @@ impl Support {
         self.points[..self.len].contains(&point)
     }
 
-    /// The face among the point itself, the edges and the triangles that it spans with the corners whose foot of the
-    /// perpendicular from the origin supports them all, or is the least far from it.
+    /// Of the point and the edges and triangles that it spans with the corners: the one whose foot of the perpendicular from the
+    /// origin supports all corners, or comes closest to it.
     fn with(&self, point: DVec3) -> (Self, DVec3) {
         let corners = &self.points[..self.len];
         let mut best = (Self { points: [point; 3], len: 1 }, point);

@@ -22,7 +22,7 @@ pub(crate) struct Interval {
 }
 
 impl Interval {
-    /// The interval around nothing, upside down.
+    /// The empty interval.
     pub(crate) const EMPTY: Self = Self { min: f64::INFINITY, max: f64::NEG_INFINITY };
 
     #[inline]

@@ -1,13 +1,12 @@
-//! The frame of a map: two axes across a direction, turning with it as continuously as a sphere allows.
+//! The frame of a map: two axes across a direction, as continuous in it as a sphere allows.
 
 use glam::DVec3;
 
-/// Two unit axes at right angles to the unit direction `along` and to each other, for an observer who looks along the
-/// unit direction `forward` with the unit direction `up` above.
+/// Two unit axes at right angles to the unit direction `along` and to each other, for a view with the unit axes `forward` and `up`.
 ///
-/// The second axis follows `forward` as seen across `along`, which lines the map up with the way the view's warp runs.
-/// That leaves out only a direction along the view, and there the frame is the one reached by the shortest turn from
-/// "light falls from above"; in between, the two are mixed in proportion to how much of `forward` is left:
+/// The second axis is the part of `forward` across `along`, which aligns the map with the direction of the view's warp. For light
+/// along the view that part vanishes; there the frame is the one of light from above, `along = −up`, turned the shortest way. In
+/// between the two are mixed in proportion to the part of `forward` across `along`:
 ///
 /// ```text
 ///     along = −up:          second = forward      (light from above)
@@ -16,8 +15,8 @@ use glam::DVec3;
 ///     along = ±right:       second = forward      (light from the side)
 /// ```
 ///
-/// No field of frames is continuous all over a sphere. This one has its two jumps where `along` is 60° from `up` in the
-/// plane of the view: light from below the horizon, at 30°, exactly ahead or behind.
+/// No field of frames is continuous on all of a sphere. This one jumps in two directions, at 60° from `up` in the plane of
+/// `forward` and `up`: light from 30° below the horizon, exactly ahead or behind.
 pub(crate) fn across(along: DVec3, forward: DVec3, up: DVec3) -> (DVec3, DVec3) {
     let seen = forward - along * forward.dot(along);
     // Turning −up to `along` is, for vectors across −up, a reflection in the plane across their sum.
@@ -33,7 +32,7 @@ pub(crate) fn across(along: DVec3, forward: DVec3, up: DVec3) -> (DVec3, DVec3) 
     (along.cross(second).normalize(), second)
 }
 
-/// The same for a light's own axis, whatever the view: as an observer has them who looks along the world's −z, y up.
+/// The frame of a light alone, independent of the view: that of a view along the world's −z with y up.
 pub(crate) fn of_light(axis: DVec3) -> (DVec3, DVec3) {
     across(axis, DVec3::NEG_Z, DVec3::Y)
 }

@@ -1,4 +1,4 @@
-//! Distances that may be infinite, stored as nothing: text formats have no infinity.
+//! Serialised distances: infinity is stored as null, which text formats have.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

@@ -1,6 +1,6 @@
-//! Types that hold a few items in place.
+//! Lists with their items in place, without allocation.
 
-/// Makes the first items of an array, as a slice, what `$list` holds: `as_slice`, `iter`, `len`, indexing and `for … in &list`.
+/// Gives `$list` the methods of a list of the first `len` items of an array: `as_slice`, `iter`, `len`, indexing, `for … in &list`.
 macro_rules! list {
     ($list:ident $(<$life:lifetime>)?, $item:ty, $array:ident, $what:literal) => {
         impl<$($life)?> $list<$($life)?> {

@@ -1,4 +1,4 @@
-//! Small mathematics that knows nothing of shadows.
+//! Mathematics that does not depend on shadows.
 
 pub(crate) mod angle;
 pub(crate) mod axis;

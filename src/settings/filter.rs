@@ -1,22 +1,36 @@
-//! How a shadow map is read.
+//! The filter that a shadow map is read with.
 
-/// How a shadow map is read for a point.
+/// The filter that a shadow map is read with: bias, border and overlap of cube faces depend on its size.
+///
+/// ```
+/// use shadowfit::{Filter, Settings};
+///
+/// let filter = Filter::Pcf(5); // 5 × 5 texels
+/// assert_eq!((filter.reach(), filter.border()), (2.5, 3));
+/// assert_eq!((Filter::Hardware2x2.reach(), Filter::Hardware2x2.border()), (1.0, 1));
+/// let settings = Settings::new(2048, 1080)?.with_border(filter.border())?;
+/// assert_eq!(settings.border(), 3);
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
+#[doc(alias = "PCF")]
+#[doc(alias = "percentage-closer filtering")]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Filter {
-    /// The one texel that the point lies in.
+    /// The texel that the point lies in.
     Nearest,
-    /// The four texels around it, compared and blended by the sampler.
+    /// A comparison sampler: the four nearest texels, compared and blended.
+    #[doc(alias = "comparison sampler")]
     #[default]
     Hardware2x2,
-    /// The mean over so many texels across and down, each compared (percentage-closer filtering: Reeves, Salesin & Cook
-    /// 1987); 0 is read as 1.
+    /// The mean of n × n compared texels (percentage-closer filtering: Reeves, Salesin & Cook 1987); 0 counts as 1.
+    #[doc(alias = "percentage-closer filtering")]
     Pcf(u8),
 }
 
 impl Filter {
-    /// How far from a point the middles of the texels lie that are read for it, at most, across and down, in texels.
+    /// The largest distance from a point to the centres of the texels read for it, across or down, in texels.
     #[must_use]
     pub fn reach(self) -> f64 {
         match self {
@@ -26,7 +40,7 @@ impl Filter {
         }
     }
 
-    /// The border of a map, in texels, that it can read into beyond what is visible: its reach, rounded up.
+    /// The border around the receivers that the filter needs, in texels: [`Self::reach`] rounded up.
     #[must_use]
     pub fn border(self) -> u32 {
         match self {

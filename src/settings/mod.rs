@@ -1,4 +1,4 @@
-//! How a fit is made.
+//! Settings of a fit.
 
 pub(crate) mod fallback;
 pub(crate) mod filter;
@@ -10,69 +10,75 @@ use crate::input::light::Light;
 use crate::input::view::View;
 use glam::{DVec2, DVec3};
 
-/// What the map's texels are spread by: the covector c that becomes w.
+/// The warp: how texels are distributed, as the covector c that becomes w (`docs/warps.md` compares them).
 ///
-/// A warp that cannot be made leaves the uniform map, and the map says why ([`ShadowMap::fallback`](crate::ShadowMap::fallback)).
+/// A warp that cannot be made falls back to the uniform map ([`ShadowMap::fallback`](crate::ShadowMap::fallback)).
+///
+/// ```
+/// use shadowfit::{Focus, Light, Scene, Settings, View, Warp};
+///
+/// let view = View::perspective((0.0, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 200.0)?;
+/// let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 10.0, 200.0))?;
+/// let focus = Focus::new(&view.narrowed_to(&scene).expect("in view"), &Light::directional((1.0, 1.0, 0.0))?, &scene);
+/// let worst = |warp| focus.fit(&Settings::default().with_warp(warp)).into_map().map(|map| map.report(&focus).aliasing);
+/// assert!(worst(Warp::default()) < worst(Warp::LightSpace) && worst(Warp::LightSpace) < worst(Warp::Uniform));
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Warp {
-    /// No warp: a parallel projection for a directional light, a perspective one from any other.
+    /// No warp: a parallel projection for a directional light, a perspective one for a local light.
+    #[doc(alias = "standard shadow map")]
     Uniform,
-    /// The camera's perspective (Stamminger & Drettakis 2002): texels shrink towards the eye, from the view's near plane
-    /// on. A near plane in the air before all that is seen draws them there, and a uniform map may then be better: narrow
-    /// the view to what is seen ([`View::narrowed`](crate::View::narrowed)).
+    /// The camera's perspective: perspective shadow maps (Stamminger & Drettakis 2002). Texels shrink towards the eye, from the
+    /// view's near plane on. With a near plane in the air, far before the first receiver, a uniform map may be better: narrow the
+    /// view ([`View::narrowed_to`](crate::View::narrowed_to)).
+    #[doc(alias = "PSM")]
+    #[doc(alias = "perspective shadow map")]
     Perspective,
-    /// The light-space perspective (Wimmer, Scherzer & Purgathofer 2004): the warp runs across the light, along the view as
-    /// the light sees it, and is as strong as their formula for n says. It fades as the light turns into the view, and is
-    /// refused for an orthographic one.
+    /// The light-space perspective (Wimmer, Scherzer & Purgathofer 2004): it runs across the light, along the view as the light
+    /// sees it, with their n. It fades to uniform as the light turns into the view; orthographic views fall back.
+    #[doc(alias = "LiSPSM")]
+    #[doc(alias = "LSPSM")]
+    #[doc(alias = "light-space perspective shadow map")]
     LightSpace,
-    /// The trapezoidal map (Martin & Tan 2004): the trapezoid around what is visible, as the light sees it, with four fifths
-    /// of the map for the part that lies next to the viewer: up to a fifth of the visible depths. It does not fade as
-    /// the light turns into the view, but keeps a warp whose direction jumps there; a light along the view is refused.
+    /// The trapezoidal map (Martin & Tan 2004): the trapezoid around R as the light sees it, with four fifths of the map for its
+    /// part next to the viewer, up to a fifth of the depths of R. It does not fade as the light turns into the view: its direction
+    /// jumps there, and a light along the view falls back.
+    #[doc(alias = "TSM")]
+    #[doc(alias = "trapezoidal shadow map")]
     Trapezoidal,
-    /// No warp, and texels that stay where they are in the world while the camera moves and turns, for edges of shadows
-    /// that do not crawl: steadiness before sharpness, as cascades are often made (Valient, *Stable Rendering of Cascaded
-    /// Shadow Maps*, ShaderX6, 2008). The back-shift makes no difference to it.
+    /// No warp, and texels snapped to the world, so that shadow edges do not shimmer as the camera moves and turns (Valient,
+    /// *Stable Rendering of Cascaded Shadow Maps*, ShaderX6, 2008). Stability before sharpness; the back-shift plays no part.
     ///
-    /// Under a directional light the map's axes are those of the light, whatever the view. The window has room for the
-    /// view in all positions: a ball around V, or all of S across the light where that is narrower, each axis for itself.
-    /// Its middle moves in whole texels of a grid through the world's origin. From a spot or a face of a cube the map is
-    /// that of all that the light reaches, and x, y and w of its matrix do not change at all. Depth ranges grow and shrink
-    /// in steps.
+    /// Under a directional light the window holds a ball around V, or S across the light where that is narrower, and moves by
+    /// whole texels. For a spot, a pyramid or a cube face it is the light's region, and x, y and w of the matrix never change.
+    /// Lights and views that have no such map fall back, see [`WarpFallback`](crate::WarpFallback).
     ///
-    /// **How to use it.** Keep what the texel's size is made of: the field of view, the aspect, near and far, the size and
-    /// border of the map, and the direction of light. Another field of view, a zoom say, or another far plane makes another
-    /// grid, all of which then changes at once. Narrow the view to the distance that shadows are drawn to
-    /// ([`View::narrowed`](crate::View::narrowed)): the window is as large as all that is nearer, wherever the camera
-    /// looks. A sun that moves turns the grid: move it in steps.
-    ///
-    /// **What f32 can do.** With [`Origin::Eye`] a point stays where it is among the texels to within
-    /// [`Window::rounding`](crate::map::Window::rounding), also a thousand kilometres from the origin. With [`Origin::World`]
-    /// coordinates far out are known to f32 by steps, and texels are made no smaller than those: by factors of two, so that
-    /// the grid stays where it is but for every other line, as long as the camera does not travel as far again. What f32
-    /// makes of a point's place in the map then is off by as much as the steps are, and by the same in each frame.
-    ///
-    /// Not every light has such a map, see [`WarpFallback`](crate::WarpFallback); it is the uniform one then.
+    /// Keep field of view, aspect, near, far, map size, border and light direction as they are: a change of any makes another
+    /// grid, and all texels move at once. Narrow the view to the maximum shadow distance ([`View::narrowed`](crate::View::narrowed)),
+    /// move a sun in steps, and far from the origin use [`Origin::Eye`] (`docs/warps.md`, "Stabilised maps").
+    #[doc(alias = "texel snapping")]
+    #[doc(alias = "shimmering")]
+    #[doc(alias = "crawling")]
+    #[doc(alias = "stabilised")]
     Stable,
-    /// The best of all single matrices that a search of this effort finds: over the warp, and over turn and shear of the window.
+    /// The best single matrix that a search of this effort finds, over the warp and over turn and shear of the window.
     ///
-    /// The search looks for the least worst aliasing over the vertices of what is visible and, under a light at a position, over the
-    /// middles of its edges too ([`ShadowMap::aliasing_over`](crate::ShadowMap::aliasing_over) looks everywhere), from those of all closed forms
-    /// on, of which the perspective warp comes with the back-shift of the settings. Points nearer to the eye than a 256th of the
-    /// depth of the farthest, in the air before all that is seen most often, count as if they stood there.
+    /// It minimises the worst aliasing over the vertices of R and, for local lights, the middles of its edges, starting from all
+    /// closed forms. Points nearer to the eye than a 256th of the farthest depth, most often air, count as if they stood there.
+    /// The result is then mixed with the uniform map as far as that is better at sampled receivers, where bias counts besides
+    /// texels; [`ShadowMap::weakening`](crate::ShadowMap::weakening) is 1 where the uniform map is better.
     ///
-    /// What is found is then mixed with the uniform map by as much as is best at points that stand for what is seen, where bias
-    /// counts beside texels: a warp leans depth, and shadows begin farther behind their casters the more it does.
-    /// [`ShadowMap::weakening`](crate::ShadowMap::weakening) says by how much, and 1 where the uniform map is better.
-    ///
-    /// From one frame to the next the search may end elsewhere; fitted from the map of the frame before
-    /// ([`Focus::fit_warm`](crate::Focus::fit_warm)) it stays, and costs less.
+    /// From frame to frame the search may end in another local minimum. Fitted from the previous map
+    /// ([`Focus::fit_warm`](crate::Focus::fit_warm)) it stays in its own, and costs less.
+    #[doc(alias = "optimal")]
     Best(Effort),
 }
 
 impl Default for Warp {
-    /// The best single matrix, by a search of the usual effort.
+    /// [`Self::Best`] with [`Effort::Good`].
     fn default() -> Self {
         Self::Best(Effort::default())
     }
@@ -80,60 +86,90 @@ impl Default for Warp {
 
 #[cfg(feature = "alloc")]
 impl Warp {
-    /// Whether texels are spread unevenly.
+    /// Whether texels are distributed unevenly.
     pub(crate) const fn bends(self) -> bool {
         !matches!(self, Self::Uniform | Self::Stable)
     }
 }
 
-/// How long to search for the best matrix: the price of its accuracy.
+/// The effort of the search of [`Warp::Best`]: accuracy for time.
 ///
-/// Worst aliasing over the least that an exhaustive search finds, on outdoor views, median and in 95 % of cases, and the time of
-/// a fit over that of a uniform one, in instructions (`cargo test --test fit best -- --nocapture`, `cargo bench --bench instructions`):
+/// Worst aliasing over that of an exhaustive search, on outdoor views, median and 95th percentile, and the instructions of a fit
+/// over those of a uniform fit (`cargo test --test fit best -- --nocapture`, `cargo bench --bench instructions`):
 ///
-/// | | sun | lamp | spot | times as long |
+/// | | sun | point light | spot | times as long |
 /// |---|---|---|---|---|
 /// | `ClosedForms` | 1.21, 1.9 | 1.36, 2.6 | 1.28, 1.7 | 3 |
 /// | `Rough` | 1.016, 1.13 | 1.020, 1.11 | 1.021, 1.13 | 5 to 6 |
 /// | `Good` | 1.001, 1.007 | 1.002, 1.020 | 1.002, 1.018 | 12 to 17 |
 /// | `Thorough` | 1.001, 1.006 | 1.001, 1.003 | 1.001, 1.014 | 17 to 26 |
+///
+/// ```
+/// use shadowfit::{Effort, Settings, Warp};
+///
+/// let settings = Settings::default().with_warp(Warp::Best(Effort::Rough));
+/// assert_eq!((settings.warp(), Warp::default()), (Warp::Best(Effort::Rough), Warp::Best(Effort::Good)));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Effort {
-    /// The best of the closed forms, in the frame that they have by themselves; in a map that is not square, in that and a
-    /// quarter turn from it.
+    /// The best of the closed forms, each in its own frame; in a map that is not square also turned by 90°.
     ClosedForms,
-    /// The best of them refined once, with eight steps.
+    /// The best closed form, refined with eight steps.
     Rough,
-    /// Two beginnings, the better of which is refined. In a map that is not square they are four, and the better two.
+    /// Two starts, the better one refined to the end. In a map that is not square four, and the better two.
     #[default]
     Good,
-    /// All refined to the end.
+    /// All starts refined to the end.
     Thorough,
 }
 
-/// Where the camera stands whose perspective warps the map, for [`Warp::Perspective`], and for [`Warp::Best`], which tries that
-/// warp among others.
+/// The back-shift of the virtual camera of [`Warp::Perspective`], and of [`Warp::Best`], which tries that warp among others.
+///
+/// ```
+/// use shadowfit::{FocusForm, Settings, warp::Shift};
+///
+/// assert_eq!(Settings::default().shift(), Shift::Back(FocusForm::ViewHull));
+/// assert_eq!(Settings::default().with_shift(Shift::None).shift(), Shift::None);
+/// ```
+#[doc(alias = "back-shift")]
+#[doc(alias = "virtual camera")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Shift {
-    /// Where the view has it. Casters behind the eye are in the map all the same.
+    /// The view's own camera. Casters behind the eye are in the map all the same.
     None,
-    /// Moved back until this form of H lies before it (Stamminger & Drettakis 2002, §4.2), which weakens the warp.
+    /// The camera moved back until this form of H lies in front of it (Stamminger & Drettakis 2002, §4.2), which weakens the warp.
     Back(FocusForm),
 }
 
 impl Default for Shift {
-    /// As the paper has it. On outdoor views the median of the worst aliasing, over the uniform map's, is 0.45 with it
-    /// and 0.73 without (the `survey` example).
+    /// The paper's. On random outdoor views it is coarser than the uniform map in fewer cases than without a shift (`docs/warps.md`).
     fn default() -> Self {
         Self::Back(FocusForm::ViewHull)
     }
 }
 
-/// What the f32 matrices take positions relative to.
+/// The origin of the positions that f32 matrices take: world space, or camera-relative or light-relative positions.
+///
+/// Positions far from the world's origin lose digits in f32. Subtract [`ShadowMap::origin`](crate::ShadowMap::origin) from them in
+/// f64, then upload them in f32.
+///
+/// ```
+/// use shadowfit::{Light, Origin, Scene, Settings, View, fit};
+///
+/// let view = View::perspective((6e6, 1.7, 0.0), (0.0, -0.2, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 200.0)?;
+/// let scene = Scene::from_box((6e6 - 50.0, 0.0, -50.0), (6e6 + 50.0, 10.0, 50.0))?;
+/// let settings = Settings::default().with_origin(Origin::Eye);
+/// let outcome = fit(&view, &Light::directional((0.4, 1.0, 0.2))?, &scene, &settings);
+/// assert_eq!(outcome.map().expect("a map").origin(), view.eye());
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
+#[doc(alias = "camera-relative rendering")]
+#[doc(alias = "floating origin")]
+#[doc(alias = "relative to eye")]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -141,19 +177,15 @@ pub enum Origin {
     /// World space.
     #[default]
     World,
-    /// The eye of the view, with the world's axes: what a renderer of large worlds uploads, with positions that it
-    /// subtracted the eye from in f64.
+    /// The eye of the view, with the world's axes: camera-relative rendering.
     Eye,
-    /// The light, where it is at a position, with the world's axes, and the eye where it is directional: the numbers are smallest
-    /// where they count. [`ShadowMap::origin`](crate::ShadowMap::origin) says what to subtract, in f64, before positions become f32.
-    ///
-    /// A lamp's map is then the same wherever in the world the lamp stands, where in world space it loses with every power of
-    /// ten one digit of what there is at its near distance.
+    /// The position of a local light, with the world's axes; the eye for a directional light. A local light's map then has the same
+    /// precision anywhere, where in world space it loses a digit at its near distance with every power of ten from the origin.
     Light,
 }
 
 impl Origin {
-    /// Where it is, in world space.
+    /// The origin in world space.
     pub(crate) fn of(self, view: &View, light: &Light) -> DVec3 {
         match self {
             Self::World => DVec3::ZERO,
@@ -163,8 +195,25 @@ impl Origin {
     }
 }
 
-/// How a fit is made. The default is the best single matrix that is found, in a map of 2048² texels for an image 1080
-/// pixels high, world space, wgpu's clip space.
+/// Settings of a fit: size of the map and of the image, border, warp, clip space, origin.
+///
+/// The default is a map of 2048² texels with a border of 1 for an image 1080 pixels high, [`Warp::Best`], wgpu's clip space and
+/// world space.
+///
+/// ```
+/// use shadowfit::{ClipSpace, FocusForm, Origin, Settings, Warp, warp::Shift};
+///
+/// let settings = Settings::default();
+/// assert_eq!((settings.map_sides(), settings.map_size(), settings.border()), ((2048, 2048), 2048, 1));
+/// assert_eq!((settings.image_height(), settings.warp()), (1080, Warp::default()));
+/// assert_eq!((settings.clip(), settings.origin()), (ClipSpace::WGPU, Origin::World));
+/// assert_eq!(settings.shift(), Shift::Back(FocusForm::ViewHull));
+///
+/// let changed = settings.with_warp(Warp::Stable).with_clip(ClipSpace::WGPU.reversed()).with_origin(Origin::Eye);
+/// let changed = changed.with_shift(Shift::None);
+/// assert_eq!((changed.warp(), changed.clip().depth.is_reversed()), (Warp::Stable, true));
+/// assert_eq!((changed.origin(), changed.shift()), (Origin::Eye, Shift::None));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "stored::Settings"))]
 pub struct Settings {
@@ -196,10 +245,19 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The largest map and image, in texels and pixels a side.
+    /// The largest size of a map, in texels a side, and of an image, in pixels.
     pub const MAX_SIZE: u32 = 1 << 16;
 
-    /// Settings for a square map of `map_size` texels a side and an image `image_height` pixels high.
+    /// Settings for a square map of `map_size` texels a side and an image `image_height` pixels high; the rest as by default.
+    ///
+    /// ```
+    /// use shadowfit::Settings;
+    ///
+    /// let settings = Settings::new(4096, 1440)?;
+    /// assert_eq!((settings.map_size(), settings.image_height()), (4096, 1440));
+    /// assert_eq!(Settings::new(1, 1440).unwrap_err().to_string(), "map_size must lie in [4, 65536]; got 1");
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
@@ -209,21 +267,35 @@ impl Settings {
         Ok(Self { map_width: map_size, map_height: map_size, image_height, ..Self::default() })
     }
 
-    /// The same for a square map of another size, in texels a side.
+    /// The settings with a square map of `map_size` texels a side.
+    ///
+    /// ```
+    /// use shadowfit::Settings;
+    ///
+    /// assert_eq!(Settings::default().with_map_size(1024)?.map_sides(), (1024, 1024));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
-    /// As [`Self::new`], and names `"border"` when the border is too wide for it.
+    /// As [`Self::new`], and names `"border"` when the border is too wide for the map.
     pub fn with_map_size(self, map_size: u32) -> Result<Self, InputError> {
         check_sizes([("map_size", map_size)])?;
         self.with_map_sides(map_size, map_size)
     }
 
-    /// The same for a map so many texels wide and high, square or not: a tile of an atlas, say.
+    /// The settings with a map `map_width` texels wide and `map_height` high, such as a tile of an atlas.
     ///
-    /// The window is made to fit as in a square map, whatever the sides: what the view looks along lies along the map's height,
-    /// and so do the closed forms' warps. Only [`Warp::Best`] looks for what makes the most of the sides, and may turn the map
-    /// to it.
+    /// The view's direction lies along the height of the map whatever its sides, and so do closed-form warps. Only [`Warp::Best`]
+    /// adapts to the sides, and may turn the map.
+    ///
+    /// ```
+    /// use shadowfit::Settings;
+    ///
+    /// let settings = Settings::default().with_map_sides(4096, 1024)?;
+    /// assert_eq!((settings.map_sides(), settings.map_size()), ((4096, 1024), 1024));
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
@@ -234,78 +306,87 @@ impl Settings {
         Self { map_width, map_height, ..self }.with_border(self.border)
     }
 
-    /// The same with a border of so many texels around what is visible, for filters to reach into; 1 by default.
+    /// The settings with a border of so many texels around the receivers, for filters to reach into
+    /// ([`Filter::border`](crate::Filter::border)); 1 by default.
+    ///
+    /// ```
+    /// use shadowfit::{Filter, Settings};
+    ///
+    /// assert_eq!(Settings::default().with_border(Filter::Pcf(7).border())?.border(), 4);
+    /// assert!(Settings::default().with_border(1000).is_err());
+    /// # Ok::<(), shadowfit::InputError>(())
+    /// ```
     ///
     /// # Errors
     ///
-    /// Names `"border"` when less than half of a side of the map would be left.
+    /// Names `"border"` when it is more than a quarter of a side of the map.
     pub fn with_border(self, border: u32) -> Result<Self, InputError> {
         let most = (self.map_size() / 4).into();
         check::within("border", border.into(), Expected::Within { least: 0.0, most })?;
         Ok(Self { border, ..self })
     }
 
-    /// The same with a warp.
+    /// The settings with a warp.
     #[must_use]
     pub const fn with_warp(self, warp: Warp) -> Self {
         Self { warp, ..self }
     }
 
-    /// The same with a back-shift of the warp's camera.
+    /// The settings with a back-shift of the virtual camera.
     #[must_use]
     pub const fn with_shift(self, shift: Shift) -> Self {
         Self { shift, ..self }
     }
 
-    /// The same with the clip convention that the matrices are for.
+    /// The settings with the clip convention of the resulting matrices.
     #[must_use]
     pub const fn with_clip(self, clip: ClipSpace) -> Self {
         Self { clip, ..self }
     }
 
-    /// The same with what the f32 matrices take positions relative to.
+    /// The settings with the origin of positions that f32 matrices take.
     #[must_use]
     pub const fn with_origin(self, origin: Origin) -> Self {
         Self { origin, ..self }
     }
 
-    /// Texels a side of a square map; of another, texels of its shorter side. It is the side of the largest square in the
-    /// map, which is what paraboloid maps and the planner, whose maps are all square, take.
+    /// The size of the map in texels: the shorter side, that of the largest square in the map. Paraboloid maps and the planner,
+    /// whose maps are square, use it.
     #[must_use]
     pub const fn map_size(&self) -> u32 {
         if self.map_width < self.map_height { self.map_width } else { self.map_height }
     }
 
-    /// Texels of the map across and down.
+    /// The width and height of the map in texels.
     #[must_use]
     pub const fn map_sides(&self) -> (u32, u32) {
         (self.map_width, self.map_height)
     }
 
-    /// The same as numbers to reckon with.
+    /// The sides of the map as floating-point numbers.
     pub(crate) fn sides(&self) -> DVec2 {
         DVec2::new(self.map_width.into(), self.map_height.into())
     }
 
-    /// The same for the largest square in the map.
+    /// The settings for the largest square in the map.
     pub(crate) const fn squared(self) -> Self {
         let map_size = self.map_size();
         Self { map_width: map_size, map_height: map_size, ..self }
     }
 
-    /// Height of the image in pixels.
+    /// The height of the image in pixels.
     #[must_use]
     pub const fn image_height(&self) -> u32 {
         self.image_height
     }
 
-    /// Texels around what is visible.
+    /// The border around the receivers, in texels.
     #[must_use]
     pub const fn border(&self) -> u32 {
         self.border
     }
 
-    /// The part of the map inside its border, across and down.
+    /// The part of the map within its border, across and down.
     pub(crate) fn inner(&self) -> DVec2 {
         1.0 - 2.0 * f64::from(self.border) / self.sides()
     }
@@ -328,14 +409,14 @@ impl Settings {
         self.clip
     }
 
-    /// What the f32 matrices take positions relative to.
+    /// The origin of positions that f32 matrices take.
     #[must_use]
     pub const fn origin(&self) -> Origin {
         self.origin
     }
 }
 
-/// Names the size that is out of bounds.
+/// Names the size that is out of range.
 fn check_sizes<const N: usize>(sizes: [(&'static str, u32); N]) -> Result<(), InputError> {
     for (field, size) in sizes {
         check::within(field, size.into(), Expected::Within { least: 4.0, most: Settings::MAX_SIZE.into() })?;
@@ -343,7 +424,7 @@ fn check_sizes<const N: usize>(sizes: [(&'static str, u32); N]) -> Result<(), In
     Ok(())
 }
 
-/// Settings as they are stored: the same values, checked again when they are read.
+/// The serialised form of settings, checked when it is read.
 #[cfg(feature = "serde")]
 mod stored {
     use super::{ClipSpace, InputError, Origin, Shift, Warp};

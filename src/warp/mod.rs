@@ -1,7 +1,9 @@
-//! The covector c that becomes w: how texels are spread.
+//! Warps: the choice of the covector c that becomes w and distributes the texels.
 //!
-//! Each warp is a file with a function `propose`: from what is visible to c, in closed form, or the reason why there is none.
-//! What they share is here.
+//! [`Warp`](crate::Warp) is at the root of the crate; this module has the class of a light, [`classify`], and the virtual camera,
+//! [`VirtualCamera`]. `docs/warps.md` compares the warps, `docs/design.md` derives them.
+// Each warp is a file with a function `propose`: from the receivers to c in closed form, or to the reason of a fallback. Code that
+// they share is here.
 
 pub(crate) mod homography;
 pub(crate) mod light_space;
@@ -25,9 +27,9 @@ pub use crate::warp::virtual_camera::{ClassKind, LightClass, NearCase, VirtualCa
 use glam::{DVec2, DVec3, DVec4};
 pub(crate) use worth::Samples;
 
-/// What a warp is proposed for, and what limits it.
+/// The receivers that a warp is proposed for, and its limits.
 pub(crate) struct Visible<'a, P> {
-    /// The view that it is seen from.
+    /// The view.
     pub(crate) view: &'a View,
     /// The light.
     pub(crate) l: DVec4,
@@ -41,24 +43,24 @@ pub(crate) struct Visible<'a, P> {
     pub(crate) along: f64,
     /// Their depths before the eye.
     pub(crate) eye_depth: Interval,
-    /// What the f32 matrix takes positions relative to.
+    /// The origin of positions that the f32 matrix takes.
     pub(crate) origin: DVec3,
-    /// The length that is too small to see.
+    /// The length below which nothing is visible.
     pub(crate) least: f64,
-    /// How large w has to be for f32.
+    /// The least w that f32 needs.
     pub(crate) precision: Precision,
 }
 
-/// A warp that is valid for what it was proposed for: c > 0 on R, and within what f32 can evaluate.
+/// A valid warp: c > 0 on R, and large enough for f32.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Proposed {
     /// c, 1 at the middle of R on the chart.
     pub(crate) warp: Functional,
-    /// The part of it, there, that is the uniform map's w: how much the warp was weakened by.
+    /// The part of c there that is the uniform map's w: how much the warp was weakened.
     pub(crate) weakening: f64,
-    /// The κ of [`Self::mixed_by`] in it, where the best map was mixed.
+    /// The κ of [`Self::mixed_by`], where the best map was mixed.
     pub(crate) mixed: f64,
-    /// How the window lies there.
+    /// The axes of the window there.
     pub(crate) frame: Frame,
 }
 
@@ -69,14 +71,14 @@ impl Proposed {
 }
 
 impl<P: Iterator<Item = DVec3> + Clone> Visible<'_, P> {
-    /// A function on the chart over R.
+    /// The range of a function on the chart over R.
     fn range(&self, function: impl Fn(DVec2) -> f64) -> Interval {
         let mut range = Interval::EMPTY;
         self.points.clone().for_each(|point| range.include(function(self.rays.through(point).0)));
         range
     }
 
-    /// The rows of a window that holds R, its sides at −1 and 1.
+    /// The rows of a map whose window, from −1 to 1, holds R.
     fn fitted(&self, [x, y, w]: [Functional; 3]) -> [Functional; 3] {
         let (mut across, mut along) = (Interval::EMPTY, Interval::EMPTY);
         for point in self.points.clone() {
@@ -87,19 +89,18 @@ impl<P: Iterator<Item = DVec3> + Clone> Visible<'_, P> {
         in_window([x, y, w], &Rectangle::over(&across, &along))
     }
 
-    /// How a map compares with the uniform one, see [`Samples::score`].
+    /// The score of a map against the uniform one, see [`Samples::score`].
     pub(crate) fn score(&self, proposed: &Proposed, samples: &Samples) -> f64 {
         samples.score(&self.fitted(proposed.frame.rows(self.middle, &proposed.warp)))
     }
 
-    /// The warp `c + κ·w`, with w that of the uniform map and κ ≥ 0 the least number for which, at every vertex of R and at
-    /// its middle,
+    /// The warp `c + κ·w`, with w of the uniform map and the least κ ≥ 0 for which, at every vertex of R and at its middle,
     ///
-    /// - c varies, against the uniform map's w, by no more than `most_ratio`, above 1;
-    /// - c is large enough against the terms that it is summed from for f32 to evaluate it, and against what it changes by
-    ///   over a length too small to see: all of a scene may be smaller, down to where the slope of c would leave f32.
+    /// - c/w varies by no more than the factor `most_ratio` > 1;
+    /// - c is large enough for f32, against the terms that it is summed from and against its change over a length too small to see
+    ///   (a scene may be so small that the slope of c would leave f32).
     ///
-    /// Both conditions are linear in κ, so that c changes continuously with everything it depends on, and c > 0 on R.
+    /// Both conditions are linear in κ, so that the result is continuous in all inputs, and c > 0 on R.
     pub(crate) fn weakened(&self, covector: &Plane, most_ratio: f64) -> Proposed {
         let rays = self.rays;
         let warp = rays.functional(covector);
@@ -129,14 +130,14 @@ impl<P: Iterator<Item = DVec3> + Clone> Visible<'_, P> {
     }
 }
 
-/// The rows x, y and w of a map whose window is at −1 and 1, from those with the window at some rectangle.
+/// The rows x, y and w of a map with its window moved from a rectangle to −1 and 1.
 fn in_window([x, y, w]: [Functional; 3], window: &Rectangle) -> [Functional; 3] {
     let row = |row: Functional, centre: f64, half: f64| row.plus(&w.scaled(-centre)).scaled(half.recip());
     [row(x, window.centre.x, window.half.x), row(y, window.centre.y, window.half.y), w]
 }
 
 impl Proposed {
-    /// The warp c + κ·w, with w that of the uniform map, both 1 at the middle.
+    /// The warp c + κ·w, with w of the uniform map, both 1 at the middle.
     pub(crate) fn mixed_by(self, kappa: f64) -> Self {
         let scale = (1.0 + kappa).recip();
         let Functional { slope, constant } = self.warp;
@@ -144,61 +145,59 @@ impl Proposed {
         Self { warp, weakening: (self.weakening + kappa) * scale, ..self }
     }
 
-    /// The same in a window whose middle line from the bottom to the top goes, when the warp bends it, through the eye as the
-    /// light sees it: what the view shows to the left and to the right lies to the left and to the right of such a line, and a
-    /// frustum seen from above fills the window instead of a wedge of it.
+    /// The same warp in a window sheared so that its vertical middle line passes through the eye as the light sees it. That line
+    /// separates the left and right halves of the view, so that a frustum seen from above fills the window, not a wedge of it.
     ///
-    /// With the eye at (u, v, w) on the chart, `x = w U − u` vanishes on its ray, and so does its line in the window, which at
-    /// the middle m runs across `(w, 0) − (w m₁ − u) ∇c`. The less warp there is, the less it leans.
+    /// With the eye at (u, v, w) on the chart, `x = w U − u` vanishes on its ray. The line through it has at the middle m the normal
+    /// `(w, 0) − (w m₁ − u) ∇c`: the weaker the warp, the less it leans.
     pub(crate) fn through_eye<P>(self, visible: &Visible<'_, P>) -> Self {
         let Visible { view, rays, middle, .. } = *visible;
         let eye = rays.homogeneous(view.eye());
         let across = DVec2::X * eye.z - self.warp.slope * (eye.z * middle.x - eye.x);
-        // across.y / across.x, drawn in where it grows large: then the eye lies beside the light or far to one side.
+        // across.y / across.x, limited where it grows large: then the eye lies beside the light or far to one side.
         let shear =
             across.x * across.y / across.dot(across * DVec2::new(1.0, MAX_SHEAR.recip() * MAX_SHEAR.recip()));
         let shear = if shear.is_finite() { shear } else { 0.0 };
         Self { frame: Frame { u: DVec2::new(1.0, shear).normalize(), ..self.frame }, ..self }
     }
 
-    /// The same with x where y was.
+    /// The same warp with the window turned by 90°.
     pub(crate) fn quarter_turned(self) -> Self {
         let Frame { u, v } = self.frame;
         Self { frame: Frame { u: v, v: -u }, ..self }
     }
 }
 
-/// Twice the slope that a window's sides may lean by.
+/// Twice the largest slope of a window's sides.
 const MAX_SHEAR: f64 = 32.0;
 
-/// What is visible nearer to the eye than this part of the depth of the farthest counts as if it stood there.
+/// Points of R nearer to the eye than this part of the farthest depth count as if they stood there.
 ///
-/// A view begins at a near plane that most often is in the air: with nothing known of what is seen, a search for the least worst
-/// texel over R would draw texels there, and with near planes of a thousandth leave none for anything else.
+/// A near plane is most often in the air. A search for the least worst texel over R would draw texels there and, with near planes
+/// of a thousandth, leave none for any receiver.
 pub(crate) const NEAREST: f64 = 1.0 / 256.0;
 
-/// How large w has to be for f32.
+/// The least w that f32 needs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Precision {
-    /// The least part that it may be of the terms that it is summed from, against the uniform map's w.
+    /// The least ratio of w to the sum of its terms, against the uniform map's w.
     part: f64,
-    /// The uniform map's w from which on that is asked; beside a lamp it is [`LEAST_PRECISION`].
+    /// The uniform map's w from which `part` applies; closer to a local light [`LEAST_PRECISION`] does.
     away: f64,
 }
 
 impl Precision {
-    /// Whether f32 leaves little to a warp.
+    /// Whether f32 leaves little room for a warp.
     pub(crate) fn is_short(&self) -> bool {
         self.part > 0.5 * MOST_PRECISION
     }
 
-    /// The more of a texel f32 takes in the uniform map already, the less is left to a warp.
+    /// The larger the f32 noise of the uniform map, in texels, the less room there is for a warp.
     ///
-    /// f32 carries a place in a warped map by w's rounding, which is a part of w as large as its terms are over w. What it carries
-    /// one by in the uniform map, in texels, is there whatever the warp; texels smaller than that noise are worth nothing, and depth,
-    /// which has the longer a range the more w varies, is off by more than in the uniform map. Six times that part of a texel is a
-    /// choice by measure (`cargo test --test numerics precision::`). Beside a lamp, where noise is hundreds of times larger than on anything
-    /// that is lit by it, none is counted.
+    /// Rounding of w moves places in a warped map by a fraction that grows as w shrinks against its terms, and its depth range grows
+    /// with the variation of w. Texels smaller than the noise of the uniform map are worth nothing. Six times that noise is a choice
+    /// by measurement (`cargo test --test numerics precision::`). Close to a local light, where noise is hundreds of times larger
+    /// than on its receivers, it is not counted.
     pub(crate) fn new(
         rays: &Rays,
         points: impl Iterator<Item = DVec3>,
@@ -215,7 +214,7 @@ impl Precision {
             noise = most(noise, UNITS * ((point - origin).abs().element_sum() + offset) / most(w, away));
         }
         let texel = 2.0 * reach / sides.min_element();
-        // A window without any extent has no warp.
+        // A window without extent has no warp.
         let is_large = TIMES_NOISE * noise < MOST_PRECISION * texel;
         Self {
             part: if is_large { most(TIMES_NOISE * noise / texel, LEAST_PRECISION) } else { MOST_PRECISION },
@@ -224,13 +223,13 @@ impl Precision {
     }
 }
 
-/// How many times the part of a texel that f32 takes.
+/// The least w, in multiples of the noise of the uniform map in texels.
 const TIMES_NOISE: f64 = 6.0;
 
-/// w is at least this part of its terms in the most precise maps.
+/// The least ratio of w to its terms in the most precise maps.
 const LEAST_PRECISION: f64 = 1.0 / 1024.0;
 
-/// In the least precise ones it is this part, which leaves next to no warp.
+/// The least ratio of w to its terms in the least precise maps; it leaves next to no warp.
 const MOST_PRECISION: f64 = 0.5;
 
 /// The largest ratio of w over R.

@@ -1,4 +1,4 @@
-//! The light after the camera's perspective: its class, and the virtual camera.
+//! The light after the camera's perspective: its class and the virtual camera.
 
 use crate::convex::{ConvexBody, Plane};
 use crate::focus::Focus;
@@ -9,19 +9,31 @@ use crate::settings::Shift;
 use core::fmt;
 use glam::{DVec3, DVec4};
 
-/// What becomes of a light under the camera's projection (Stamminger & Drettakis 2002, §3.2 and Fig. 4 and 5).
+/// The class of a light after the camera's projection (Stamminger & Drettakis 2002, §3.2, Fig. 4 and 5).
 ///
-/// The class explains a fit; no branch of it depends on the class.
+/// It explains a fit; no branch of the fit depends on it.
+///
+/// ```
+/// use shadowfit::{Light, View, warp::{ClassKind, classify}};
+///
+/// let view = View::perspective((0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 50.0)?;
+/// let kind = |light: Light| classify(&view, &light).kind;
+/// assert_eq!(kind(Light::point((0.0, 3.0, -9.0), 0.1, 20.0)?), ClassKind::Point);
+/// assert_eq!(kind(Light::point((0.0, 3.0, 9.0), 0.1, 20.0)?), ClassKind::Inverted);
+/// assert_eq!(kind(Light::directional((0.0, 1.0, 0.0))?), ClassKind::Directional);
+/// assert_eq!(kind(Light::directional((0.0, 1.0, -1.0))?), ClassKind::InfinityPlane);
+/// assert_eq!(ClassKind::InfinityPlane.to_string(), "infinity plane");
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ClassKind {
-    /// A light at a position before the camera plane: a point light, λw > 0.
+    /// A local light in front of the camera plane: a point light, λw > 0.
     Point,
-    /// A light at a position behind the viewer: a point light that depths grow *towards*, λw < 0. The paper reverses
-    /// the depth test; here depth grows away from the light all the same.
+    /// A local light behind the viewer: an inverted point light, λw < 0. The paper reverses the depth test; here depth grows away
+    /// from the light in every class.
     Inverted,
-    /// λw = 0: a light at a position in the camera plane becomes directional, a directional light parallel to the
-    /// image plane stays so.
+    /// λw = 0: a local light in the camera plane becomes directional; a directional light parallel to the image plane stays so.
     Directional,
     /// A directional light shining towards the viewer: a point light on the infinity plane, λw > 0.
     InfinityPlane,
@@ -41,44 +53,58 @@ impl fmt::Display for ClassKind {
     }
 }
 
-/// A special case that a light and a view come close to.
+/// A special case that a light is close to ([`LightClass::is_near`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum NearCase {
-    /// The light lies in the camera plane, or shines parallel to it: the class is about to change.
+    /// The light lies in the camera plane or shines parallel to it: the class is about to change.
     CameraPlane,
-    /// The light shines along the view or against it: a warp has nothing to gain.
+    /// The light shines along the view or against it (duelling frusta): no warp gains anything.
+    #[doc(alias = "duelling frusta")]
+    #[doc(alias = "dueling frusta")]
     AlongView,
-    /// The light is at the eye, as a miner's lamp: shadows are hidden from the viewer.
+    /// The light is at the eye, such as a headlamp: the viewer sees no shadows.
     Eye,
     /// The light is inside V.
     InsideView,
 }
 
-/// The class of a light, with its position after perspective.
+/// A light after the camera's perspective: its class and position, from [`classify`].
+///
+/// ```
+/// use shadowfit::{Light, View, warp::{ClassKind, NearCase, classify}};
+///
+/// let view = View::perspective((0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 50.0)?;
+/// let class = classify(&view, &Light::point((0.0, 0.5, -0.002), 0.1, 20.0)?);
+/// assert_eq!((class.kind, class.inside_view), (ClassKind::Point, false));
+/// assert!((class.position.w - 0.002).abs() < 1e-12 && (class.eye_distance - 5.0).abs() < 1e-3);
+/// assert!(class.is_near(NearCase::CameraPlane) && class.is_near(NearCase::Eye));
+/// assert!(class.near_cases().eq([NearCase::CameraPlane, NearCase::Eye]));
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LightClass {
     /// The class.
     pub kind: ClassKind,
-    /// λ = C·l, the homogeneous position of the light after perspective: x, y and z are −1 to 1 inside V after
-    /// division by w, which is the light's depth before the eye (for a directional light, that of its unit direction).
+    /// λ = C·l, the homogeneous position of the light after perspective. Inside V, x/w, y/w and z/w lie in [−1, 1]; w is the light's
+    /// depth before the eye in world units, or that of the unit direction of a directional light.
     pub position: DVec4,
-    /// Sine of the angle between the camera plane and the ray from the eye to the light: 0 where classes meet, 1 for a
-    /// light along the view, −1 against it.
+    /// The sine of the angle between the camera plane and the ray from the eye to the light: 0 where classes meet, 1 for a light
+    /// straight ahead, −1 for one straight behind.
     pub sine_to_camera_plane: f64,
-    /// Distance from the eye to the light in units of the near distance; infinite for a directional light and for an
-    /// orthographic view, which has no eye.
+    /// The distance from the eye to the light over the view's near distance; infinite for a directional light and for an
+    /// orthographic view.
     #[cfg_attr(feature = "serde", serde(with = "crate::math::infinity"))]
     pub eye_distance: f64,
-    /// Whether the light is inside V, its planes included.
+    /// Whether the light is inside V or on its boundary.
     pub inside_view: bool,
 }
 
 impl LightClass {
-    /// Whether the light comes close to a case: within 1 % of the sine of the angle, or of ten near distances around
-    /// the eye.
+    /// Whether the light is close to a special case: the sine of its angle within 0.01, or its distance from the eye below ten near
+    /// distances.
     #[must_use]
     pub fn is_near(&self, case: NearCase) -> bool {
         match case {
@@ -89,7 +115,7 @@ impl LightClass {
         }
     }
 
-    /// The cases that the light comes close to.
+    /// The special cases that the light is close to.
     pub fn near_cases(&self) -> impl Iterator<Item = NearCase> + '_ {
         [NearCase::CameraPlane, NearCase::AlongView, NearCase::Eye, NearCase::InsideView]
             .into_iter()
@@ -103,15 +129,25 @@ impl fmt::Display for LightClass {
     }
 }
 
-/// The class of a light after the perspective of a view.
+/// Classifies a light after the perspective of a view (Stamminger & Drettakis 2002, §3.2).
 ///
-/// An orthographic view has λw = 0 for every directional light and λw = 1 for every other: they keep their kind.
+/// An orthographic view has λw = 0 for directional lights and λw = 1 for local ones, which keeps their kind.
+///
+/// ```
+/// use shadowfit::{Light, View, warp::{ClassKind, classify}};
+///
+/// let view = View::perspective((0.0, 1.7, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 500.0)?;
+/// let behind = classify(&view, &Light::directional((0.0, 1.0, 1.0))?);
+/// assert_eq!(behind.kind, ClassKind::InfinityPlaneInverted);
+/// assert!((behind.sine_to_camera_plane + 0.5_f64.sqrt()).abs() < 1e-12);
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
 #[must_use]
 pub fn classify(view: &View, light: &Light) -> LightClass {
     let rows = view.rows(view.near(), view.far());
     let l = light.homogeneous();
     let position = after_perspective(&rows, l);
-    // Only the name of the class has a threshold: the rounding of λw itself.
+    // The class alone has a threshold, the rounding of λw: nothing in a fit depends on it.
     let magnitude = rows[3].normal.abs().dot(l.truncate().abs()) + (rows[3].offset * l.w).abs();
     let on_plane = position.w.abs() <= 4.0 * f64::EPSILON * magnitude;
     let kind = match (light.position().is_some(), on_plane, position.w > 0.0) {
@@ -140,23 +176,37 @@ pub(crate) fn after_perspective(rows: &[Plane; 4], l: DVec4) -> DVec4 {
     DVec4::new(rows[0].on(l), rows[1].on(l), rows[2].on(l), rows[3].on(l))
 }
 
-/// The camera whose perspective warps the map: the view's own, or the view's moved back (Stamminger & Drettakis 2002,
-/// §4.2).
+/// The virtual camera, whose perspective warps the map: the view's own, or moved back (Stamminger & Drettakis 2002, §4.2).
+///
+/// ```
+/// use shadowfit::{Focus, FocusForm, Light, Scene, View, warp::{Shift, VirtualCamera}};
+///
+/// let view = View::perspective((0.0, 1.7, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), 1.0, 1.6, 0.1, 60.0)?;
+/// let scene = Scene::from_box((-200.0, 0.0, -200.0), (200.0, 30.0, 200.0))?;
+/// let focus = Focus::new(&view, &Light::directional((0.4, 1.0, 0.9))?, &scene); // from behind
+/// let camera = VirtualCamera::new(&focus, Shift::Back(FocusForm::ViewHull)).expect("receivers");
+/// assert!(camera.shift > 0.0 && camera.eye == view.eye() - view.forward() * camera.shift);
+/// assert!(camera.near >= 0.1 && camera.far > camera.near);
+/// assert_eq!(VirtualCamera::new(&focus, Shift::None).expect("receivers").shift, 0.0);
+/// # Ok::<(), shadowfit::InputError>(())
+/// ```
+#[doc(alias = "back-shift")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VirtualCamera {
-    /// s, how far the eye is moved back along the view axis, in world units; 0 for the view's own camera.
+    /// The back-shift s along the view axis, in world units; 0 for the view's own camera.
     pub shift: f64,
-    /// Where it is, in world space.
+    /// The position in world space.
     pub eye: DVec3,
-    /// Depth of its near plane before `eye`, in world units.
+    /// The depth of the near plane before `eye`, in world units.
     pub near: f64,
-    /// Depth of its far plane before `eye`, in world units.
+    /// The depth of the far plane before `eye`, in world units.
     pub far: f64,
 }
 
 impl VirtualCamera {
-    /// The camera for what is visible, or `None` when nothing is; moved back by [`Shift::Back`] as [`Focus::fit`] does.
+    /// The virtual camera that [`Focus::fit`] uses with this back-shift; `None` without receivers, or without casters for
+    /// [`Shift::Back`].
     #[must_use]
     pub fn new(focus: &Focus<'_>, shift: Shift) -> Option<Self> {
         let (view, visible) = (focus.view(), focus.receiver_volume());
@@ -180,22 +230,19 @@ impl VirtualCamera {
         depths
     }
 
-    /// The view's own camera, its depth range drawn in to that of the visible points: what lies before the first and
-    /// beyond the last of them does not matter to the warp, and an infinite far plane needs no special case.
+    /// The view's own camera with its depth range narrowed to that of the receivers: the warp ignores depths outside, and an
+    /// infinite far plane is no special case.
     pub(crate) fn own(view: &View, visible: &Interval) -> Self {
         let (near, far) = match view.lens() {
-            // Rounding may leave a point of R just before the near plane.
+            // Rounding may put a point of R just in front of the near plane.
             Lens::Perspective => (visible.min.max(view.near()), visible.max),
             Lens::Orthographic => (view.near(), view.far()),
         };
         Self { shift: 0.0, eye: view.eye(), near, far: beyond(near, far) }
     }
 
-    /// The camera moved back until every point of H lies beyond its near plane: by the least s that brings the nearest
-    /// one to the near distance. The near distance stays, the frame keeps its angle, and the far plane grows with s to
-    /// hold H, and with it what is visible of the old frustum.
-    ///
-    /// An orthographic view has no perspective to weaken and does not move.
+    /// The camera moved back by the least s that puts all of H beyond its near plane. The near distance and the angles of the frame
+    /// stay; the far plane moves to hold H. An orthographic view has no perspective to weaken and does not move.
     pub(crate) fn moved_back(view: &View, body: &Interval) -> Self {
         if view.lens() == Lens::Orthographic {
             return Self { shift: 0.0, eye: view.eye(), near: view.near(), far: view.far() };
@@ -211,7 +258,7 @@ impl VirtualCamera {
     }
 }
 
-/// A far depth that is beyond the near one even when all points lie at one depth.
+/// A far depth beyond the near one, also when all points have one depth.
 fn beyond(near: f64, far: f64) -> f64 {
     const THICKNESS: f64 = 1.0 / 1024.0;
     far.max(near + near.abs() * THICKNESS)

@@ -1,13 +1,11 @@
-//! Angles, with the same bits everywhere: sines, cosines and their inverse by sums, products and quotients alone.
+//! Sines, cosines and arctangents with the same bits on every platform, from sums, products and quotients alone.
 //!
-//! IEEE 754 fixes what +, −, ×, ÷ and the square root round to, but not what a platform's mathematics library makes of a
-//! sine, and libraries differ in the last bit. A field of view and a spot's opening are all that a fit has of angles, so
-//! that this is all it takes for results to be the same on every platform and under every feature.
+//! IEEE 754 specifies the rounding of +, −, ×, ÷ and the square root, but not of a library's sine, and libraries differ in the last
+//! bit. The only angles in a fit are fields of view and spot angles, so that these functions make results the same everywhere.
 //!
 //! # Bounds
 //!
-//! With u = 2⁻⁵³, half of what one ulp is at 1, and t no more than about π/4, where Taylor's series end at t¹⁷/17! and
-//! t¹⁸/18! and what they leave out is below 10⁻¹⁸:
+//! With u = 2⁻⁵³, half an ulp at 1, and t up to about π/4: Taylor series to t¹⁷/17! and t¹⁸/18!, with a remainder below 10⁻¹⁸.
 //!
 //! ```text
 //!     sin t = t + t³ P(t²)                |t³ P| ≤ 0.079: six roundings of its factors make 0.41 u,
@@ -16,14 +14,13 @@
 //!                                         rounds off is exactly (1 − (1 − h)) − h and goes into r; half an ulp again
 //! ```
 //!
-//! An ulp of a sine near 0.7, and of a cosine from there to 1, is u. The sine's is less only where t, and t³ P with it, is:
-//! at ½ its error is 0.05 of the sine, 0.25 of an ulp. So both are off by less than one ulp. An angle of a vector is off by
-//! less than two: a rounding of the quotient, one of its series, one of the sum with the table's entry, which holds 106
-//! bits, and one of what is taken from π/2 or π.
+//! An ulp of a sine near 0.7, and of a cosine from there to 1, is u. Where the sine is smaller its ulp shrinks, and so do t and t³ P:
+//! at ½ the error is 0.25 ulp. Both are off by less than one ulp. The angle of a vector is off by less than two: one rounding each
+//! of the quotient, the series, the sum with the table's entry (106 bits), and the difference from π/2 or π.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-/// What π/2 is more than its nearest f64.
+/// The difference between π/2 and its nearest f64.
 const FRAC_PI_2_REST: f64 = 6.123_233_995_736_766e-17;
 
 /// 1/n!, correctly rounded: up to 18! the factorial is exact.
@@ -36,8 +33,7 @@ const fn inverse_factorial(n: u32) -> f64 {
     1.0 / factorial as f64
 }
 
-/// Sine and cosine of an angle in [0, π] in radians, each to less than one ulp; an angle outside is taken as the nearer
-/// end.
+/// Sine and cosine of an angle in [0, π] in radians, each to less than one ulp; angles outside are clamped.
 #[inline]
 pub(crate) fn sine_cosine(angle: f64) -> (f64, f64) {
     let angle = angle.clamp(0.0, PI);
@@ -89,8 +85,7 @@ fn series(t: f64, rest: f64) -> (f64, f64) {
     (sine, cosine)
 }
 
-/// The angle in [0, π] in radians between the x axis and the vector (x, y), y ≥ 0, to less than two ulps; 0 for the vector
-/// that has none.
+/// The angle in [0, π] in radians between the x axis and the vector (x, y), y ≥ 0, to less than two ulps; 0 for the zero vector.
 pub(crate) fn of_vector(x: f64, y: f64) -> f64 {
     let (steep, back) = (y > x.abs(), x < 0.0);
     let angle = if steep { arctangent(x.abs(), y) } else { arctangent(y, x.abs()) };
@@ -104,7 +99,7 @@ pub(crate) fn of_vector(x: f64, y: f64) -> f64 {
 
 /// The arctangent of y/x where 0 ≤ y ≤ x; 0 where both are 0.
 fn arctangent(y: f64, x: f64) -> f64 {
-    /// Arctangents of k/8, and what they are more than these.
+    /// Arctangents of k/8, each as an f64 and its remainder.
     const TABLE: [(f64, f64); 9] = [
         (0.0, 0.0),
         (0.124_354_994_546_761_44, -3.125_324_142_453_938_3e-18),
