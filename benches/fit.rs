@@ -1,5 +1,5 @@
 //! Time: `cargo bench --bench fit`. Read ratios within one run, not times across runs: machines are noisy. How cost grows with
-//! lights, casters, planes and slices, the report measures (`cargo run --release -p report`).
+//! lights, casters, planes and cascades, the report measures (`cargo run --release -p report`).
 
 // Cases may be laid out with whatever sines the platform has, and the macros' items have no documentation.
 #![allow(clippy::disallowed_methods, missing_docs)]

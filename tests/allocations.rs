@@ -206,7 +206,7 @@ fn culling() {
 }
 
 #[test]
-fn slices() {
+fn cascades() {
     let mut maps = 0;
     for_each_case(|view, light, scene| {
         for cuts in [
@@ -214,9 +214,9 @@ fn slices() {
             CascadeSplits::At(&[1.0, 5.0, 30.0]),
         ] {
             let count = allocations(|| {
-                let slices = Cascades::new(view, light, scene, cuts, 0.1).unwrap();
-                let fitted = slices.fit(&Settings::default());
-                black_box((slices.index_at(3.0), slices.blend_at(3.0)));
+                let cascades = Cascades::new(view, light, scene, cuts, 0.1).unwrap();
+                let fitted = cascades.fit(&Settings::default());
+                black_box((cascades.index_at(3.0), cascades.blend_at(3.0)));
                 black_box(fitted.report());
                 for layout in [CascadeLayout::Array, CascadeLayout::Atlas] {
                     black_box(fitted.uniform(layout, |_| None).to_bytes());

@@ -218,8 +218,6 @@ impl Origin {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "stored::Settings"))]
 pub struct Settings {
     map_width: u32,
-    /// An option as it is stored: settings from when all maps were square are read as well.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "stored::some"))]
     map_height: u32,
     image_height: u32,
     border: u32,
@@ -431,11 +429,8 @@ mod stored {
 
     #[derive(serde::Deserialize)]
     pub(super) struct Settings {
-        /// Of a square map this was once all there was.
-        #[serde(alias = "map_size")]
         map_width: u32,
-        #[serde(default)]
-        map_height: Option<u32>,
+        map_height: u32,
         image_height: u32,
         border: u32,
         warp: Warp,
@@ -448,16 +443,9 @@ mod stored {
         type Error = InputError;
         fn try_from(settings: Settings) -> Result<Self, InputError> {
             let Settings { map_width, map_height, image_height, border, warp, shift, clip, origin } = settings;
-            let map_height = map_height.unwrap_or(map_width);
             let largest = Self::new(Self::MAX_SIZE, image_height)?;
             let checked = largest.with_map_sides(map_width, map_height)?.with_border(border)?;
             Ok(checked.with_warp(warp).with_shift(shift).with_clip(clip).with_origin(origin))
         }
-    }
-
-    /// A height as it is read again.
-    #[expect(clippy::trivially_copy_pass_by_ref, reason = "it is what serde calls")]
-    pub(super) fn some<S: serde::Serializer>(height: &u32, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_some(height)
     }
 }

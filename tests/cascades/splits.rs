@@ -1,4 +1,4 @@
-//! Slices of a view: where they are cut, what they are worth, which of them are dropped, and what holds for all.
+//! Cascades of a view: where they are cut, what they are worth, which of them are dropped, and what holds for all.
 
 use glam::{DVec2, DVec3, Vec3, Vec4};
 use proptest::prelude::*;
@@ -11,8 +11,8 @@ use shadowfit::{
     warp::Shift,
 };
 use testkit::arbitrary::{Together, case, run, settings, sides};
+use testkit::claims::cascades::{self, cutting};
 use testkit::claims::constructors::cut_at_any_bits;
-use testkit::claims::slices::{self, cutting};
 
 /// The field of view with 2T = 1, twice the angle whose tangent is a half.
 const FOV: f64 = 0.927_295_218_001_612_2;
@@ -33,8 +33,8 @@ fn around(far: f64) -> Scene<'static> {
     Scene::from_box(DVec3::splat(-2.0 * far), DVec3::splat(2.0 * far)).unwrap()
 }
 
-fn fars(slices: &Cascades<'_>) -> Vec<f64> {
-    slices.iter().map(|slice| slice.far).collect()
+fn fars(cascades: &Cascades<'_>) -> Vec<f64> {
+    cascades.iter().map(|cascade| cascade.far).collect()
 }
 
 /// Cuts that can be worked out by hand, and those of Zhang et al.'s formula for a view from 1 to 1000.
@@ -66,34 +66,34 @@ fn cuts_follow_what_is_visible() {
     let scene = Scene::from_box((-1.0, -1.0, -81.0), (1.0, 1.0, -5.0)).unwrap();
     let far = view(0.01, f64::INFINITY);
     let cuts = CascadeSplits::Visible { count: 4, split: SplitScheme::Logarithmic };
-    let slices = Cascades::new(&far, &overhead(), &scene, cuts, 0.0).unwrap();
+    let cascades = Cascades::new(&far, &overhead(), &scene, cuts, 0.0).unwrap();
     // Corners are off by the slack of planes, which f32 does not see.
     let ratio: f64 = 81.0 / 5.0;
     let roots = [ratio.sqrt().sqrt(), ratio.sqrt(), ratio.sqrt() * ratio.sqrt().sqrt()];
-    for (slice, root) in slices.iter().zip(roots) {
-        assert!((slice.far / (5.0 * root) - 1.0).abs() <= 2.0 * UNIT, "{} {root}", slice.far);
+    for (cascade, root) in cascades.iter().zip(roots) {
+        assert!((cascade.far / (5.0 * root) - 1.0).abs() <= 2.0 * UNIT, "{} {root}", cascade.far);
     }
-    assert_eq!((slices[0].near, slices[3].far), (0.01, f64::INFINITY));
+    assert_eq!((cascades[0].near, cascades[3].far), (0.01, f64::INFINITY));
     // Of the view's own planes, infinity cannot be split.
     let planes = CascadeSplits::View { count: 2, split: SplitScheme::Uniform };
     refused(Cascades::new(&far, &overhead(), &scene, planes, 0.0), "view", InputErrorKind::NotFinite);
     assert_eq!(Cascades::new(&far, &overhead(), &scene, CascadeSplits::At(&[7.0, 20.0]), 0.0).unwrap().len(), 3);
 }
 
-/// A wall across the view has one depth, which is in one slice.
+/// A wall across the view has one depth, which is in one cascade.
 #[test]
 fn what_has_one_depth_is_not_cut() {
     let wall = Scene::from_box((-9.0, -9.0, -10.0), (9.0, 9.0, -10.0)).unwrap();
     let sun = Light::directional((0.3, 1.0, 1.0)).unwrap();
     for split in [SplitScheme::Uniform, SplitScheme::Logarithmic, SplitScheme::Practical(0.5)] {
-        let slices =
+        let cascades =
             Cascades::new(&view(1.0, 90.0), &sun, &wall, CascadeSplits::Visible { count: 8, split }, 0.5).unwrap();
-        assert_eq!(slices.len(), 1);
-        assert!(slices.fit(&Settings::default()).outcomes()[0].map().is_some());
+        assert_eq!(cascades.len(), 1);
+        assert!(cascades.fit(&Settings::default()).outcomes()[0].map().is_some());
     }
 }
 
-/// Slices of the view's planes stay where they are while the camera moves; those of what is visible do not.
+/// Cascades of the view's planes stay where they are while the camera moves; those of what is visible do not.
 #[test]
 fn cuts_of_the_planes_stay() {
     let scene = Scene::from_box((-50.0, -3.0, -50.0), (50.0, 5.0, 50.0)).unwrap();
@@ -112,11 +112,11 @@ fn cuts_of_the_planes_stay() {
 }
 
 /// `docs/design.md`, section 8, with its light overhead and all of V receiving: a uniform map of a view from n to f needs f/n texels
-/// across and (f − n)/(2T n) along the view for each pixel. Cut logarithmically, each of k slices is a view whose ends have
+/// across and (f − n)/(2T n) along the view for each pixel. Cut logarithmically, each of k cascades is a view whose ends have
 /// the ratio ρ = (f/n)^(1/k), so that all need ρ and (ρ − 1)/(2T), and together k ρ(ρ − 1)/(2T), which tends to
 /// ln(f/n)/(2T) from above.
 ///
-/// A slice is wider than its cuts by the rounding of depths, eight units of the distance to the frame's corners, here
+/// A cascade is wider than its cuts by the rounding of depths, eight units of the distance to the frame's corners, here
 /// √(1 + 2T²) = √1.5 of the depth, and cuts are rounded by a unit each: ρ is larger by
 /// (2 · 8 · √1.5 + 2) units at most, and ρ − 1 by ρ/(ρ − 1) times as much of itself. The padding of windows is divided out.
 #[test]
@@ -126,14 +126,14 @@ fn logarithmic_slices_need_as_little_as_derived() {
         let mut before = f64::INFINITY;
         for (count, ratio) in [(1, far), (2, far.sqrt()), (4, far.sqrt().sqrt()), (8, far.sqrt().sqrt().sqrt())] {
             let cuts = CascadeSplits::View { count, split: SplitScheme::Logarithmic };
-            let slices = Cascades::new(&view(1.0, far), &overhead(), &around(far), cuts, 0.0).unwrap();
-            assert_eq!(slices.len(), count);
-            let maps = slices.fit(&settings);
+            let cascades = Cascades::new(&view(1.0, far), &overhead(), &around(far), cuts, 0.0).unwrap();
+            assert_eq!(cascades.len(), count);
+            let maps = cascades.fit(&settings);
             let wider = (16.0 * 1.5_f64.sqrt() + 2.0) * UNIT;
             let mut texels = 0.0;
             for (index, map) in maps.maps() {
                 let (across, along) = map.window().padding;
-                let visible = slices[index].focus.receiver_volume();
+                let visible = cascades[index].focus.receiver_volume();
                 let needed = visible.vertices().iter().fold((0.0, 0.0), |(rs, rt): (f64, f64), &point| {
                     let (texel, pixel) = (map.footprint(point).unwrap(), map.pixel_size(point));
                     let (x, y) = (texel.along_x.length() / pixel, texel.along_y.length() / pixel);
@@ -168,13 +168,13 @@ fn what_nobody_sees_is_dropped() {
     let cuts = CascadeSplits::At(&[20.0, 100.0, 250.0]);
     let (casters, receivers) = ([tree], [field, hill]);
     let scene = Scene::new(&casters, &receivers).unwrap();
-    let slices = Cascades::new(&view, &overhead(), &scene, cuts, 0.1).unwrap();
-    let maps = slices.fit(&Settings::default());
+    let cascades = Cascades::new(&view, &overhead(), &scene, cuts, 0.1).unwrap();
+    let maps = cascades.fit(&Settings::default());
     assert_eq!(maps.outcomes()[0], Outcome::Empty(Empty::NoCasters));
     assert_eq!(maps.outcomes()[1], Outcome::Empty(Empty::NoReceivers));
     assert_eq!(maps.outcomes()[2], Outcome::Empty(Empty::NoReceivers));
     assert!(maps.outcomes()[3].map().is_some());
-    assert!(slices[1].focus.receiver_volume().is_empty() && slices[2].focus.receiver_volume().is_empty());
+    assert!(cascades[1].focus.receiver_volume().is_empty() && cascades[2].focus.receiver_volume().is_empty());
     let report = maps.report();
     assert_eq!((report.cascades, report.maps, report.worst), (4, 1, Some(3)));
     assert_eq!((report.nothing_visible, report.nothing_casts, report.surrounded), (2, 1, 0));
@@ -190,21 +190,21 @@ fn what_nobody_sees_is_dropped() {
     }
 }
 
-/// A lamp among what is visible is beside of it in the slices before and behind it.
+/// A lamp among what is visible is beside of it in the cascades before and behind it.
 #[test]
 fn a_lamp_surrounds_itself_with_one_slice() {
     let scene = Scene::from_box((-20.0, -3.0, -60.0), (20.0, 5.0, 0.0)).unwrap();
     let lamp = Light::point((0.0, 0.0, -30.0), 0.1, 100.0).unwrap();
     let view = view(1.0, 100.0);
     assert!(matches!(fit(&view, &lamp, &scene, &Settings::default()), Outcome::Surrounded(_)));
-    let slices = Cascades::new(&view, &lamp, &scene, CascadeSplits::At(&[20.0, 40.0]), 0.0).unwrap();
-    let maps = slices.fit(&Settings::default());
+    let cascades = Cascades::new(&view, &lamp, &scene, CascadeSplits::At(&[20.0, 40.0]), 0.0).unwrap();
+    let maps = cascades.fit(&Settings::default());
     let report = maps.report();
     assert_eq!((report.maps, report.surrounded), (2, 1));
     assert!(matches!(maps.outcomes(), [Outcome::Map(_), Outcome::Surrounded(_), Outcome::Map(_)]));
 }
 
-/// What the report has of each slice, and the worst of all: less with each slice.
+/// What the report has of each cascade, and the worst of all: less with each cascade.
 #[test]
 fn reports_are_of_the_worst_slice() {
     let scene = Scene::from_box((-50.0, -3.0, -90.0), (50.0, 5.0, 0.0)).unwrap();
@@ -213,8 +213,8 @@ fn reports_are_of_the_worst_slice() {
     let mut before = f64::INFINITY;
     for count in 1..=Cascades::MAX {
         let cuts = CascadeSplits::Visible { count, split: SplitScheme::Logarithmic };
-        let slices = Cascades::new(&view(1.0, 80.0), &sun, &scene, cuts, 0.1).unwrap();
-        let maps = slices.fit(&settings);
+        let cascades = Cascades::new(&view(1.0, 80.0), &sun, &scene, cuts, 0.1).unwrap();
+        let maps = cascades.fit(&settings);
         let report = maps.report();
         let each: Vec<f64> = (0..count).map(|index| maps.report_of(index).unwrap().aliasing).collect();
         let worst = report.worst.unwrap();
@@ -243,9 +243,9 @@ fn tiles_fill_atlases((width, height): (u32, u32), grids: [(u32, u32); 8]) {
     let sun = Light::directional((0.3, 1.0, 0.2)).unwrap();
     for (count, (across, down)) in (1..).zip(grids) {
         let cuts = CascadeSplits::Visible { count, split: SplitScheme::Logarithmic };
-        let slices = Cascades::new(&view(1.0, 80.0), &sun, &scene, cuts, 0.1).unwrap();
+        let cascades = Cascades::new(&view(1.0, 80.0), &sun, &scene, cuts, 0.1).unwrap();
         let settings = Settings::new(512, 1080).unwrap().with_map_sides(width, height).unwrap();
-        let maps = slices.fit(&settings.with_border(2).unwrap());
+        let maps = cascades.fit(&settings.with_border(2).unwrap());
         let atlas = TextureExtent { width: across * width, height: down * height, layers: 1 };
         assert_eq!(maps.extent(CascadeLayout::Atlas), atlas);
         assert_eq!(maps.extent(CascadeLayout::Array), TextureExtent { width, height, layers: count as u32 });
@@ -276,8 +276,8 @@ fn tiles_fill_atlases((width, height): (u32, u32), grids: [(u32, u32); 8]) {
 fn a_block_is_its_words() {
     let scene = Scene::from_box((-50.0, -3.0, -90.0), (50.0, 5.0, 0.0)).unwrap();
     let cuts = CascadeSplits::At(&[5.0, 20.0]);
-    let slices = Cascades::new(&view(1.0, 80.0), &overhead(), &scene, cuts, 0.25).unwrap();
-    let maps = slices.fit(&Settings::default());
+    let cascades = Cascades::new(&view(1.0, 80.0), &overhead(), &scene, cuts, 0.25).unwrap();
+    let maps = cascades.fit(&Settings::default());
     let offset = ReceiverOffset::depth(0.01).unwrap();
     let uniform = maps.uniform(CascadeLayout::Atlas, |_| Some(offset));
     let bytes = uniform.to_bytes();
@@ -303,17 +303,17 @@ fn an_atlas_is_its_maps_side_by_side() {
     let scene = Scene::from_box((-50.0, -3.0, -90.0), (50.0, 5.0, 0.0)).unwrap();
     let sun = Light::directional((0.3, 1.0, 0.2)).unwrap();
     let cuts = CascadeSplits::Visible { count: 8, split: SplitScheme::Practical(0.8) };
-    let slices = Cascades::new(&view(1.0, 80.0), &sun, &scene, cuts, 0.1).unwrap();
+    let cascades = Cascades::new(&view(1.0, 80.0), &sun, &scene, cuts, 0.1).unwrap();
     let square = Settings::default().with_warp(Warp::Uniform).with_shift(Shift::None);
     let wide = square.with_map_sides(4096, 1024).unwrap();
     for settings in [square, square.with_warp(Warp::Perspective), wide] {
-        let maps = slices.fit(&settings);
+        let maps = cascades.fit(&settings);
         for (index, map) in maps.maps() {
             let tile = maps.tile(index, CascadeLayout::Atlas).unwrap();
             let matrix = tile.receiver_matrix(map, None);
             let (scale, offset) = tile.texture_from_map();
             let last = (tile.corner.0 / tile.size.0).max(tile.corner.1 / tile.size.1);
-            for &point in slices[index].focus.receiver_volume().vertices() {
+            for &point in cascades[index].focus.receiver_volume().vertices() {
                 let place = matrix * Vec4::from((point.as_vec3(), 1.0));
                 let place = place.truncate().as_dvec3() / f64::from(place.w);
                 let exact = map.texture_from_world() * point.extend(1.0);
@@ -383,9 +383,9 @@ fn views_at_the_ends_of_what_is_accepted() {
                 if view.far().is_infinite() && matches!(cuts, CascadeSplits::View { .. }) {
                     continue;
                 }
-                let slices = Cascades::new(&view, &overhead(), &scene, cuts, 0.5).unwrap();
-                assert_eq!(slices.len(), 8, "{view:?} {cuts:?}");
-                let maps = slices.fit(&Settings::default());
+                let cascades = Cascades::new(&view, &overhead(), &scene, cuts, 0.5).unwrap();
+                assert_eq!(cascades.len(), 8, "{view:?} {cuts:?}");
+                let maps = cascades.fit(&Settings::default());
                 assert_eq!(maps.report().maps + maps.report().nothing_casts, 8, "{view:?} {cuts:?}");
             }
         }
@@ -405,32 +405,32 @@ fn any_bits_cut_or_are_refused() {
 #[test]
 fn one_slice_is_a_plain_fit() {
     run(2000, &(case(), cutting(), settings()), |(case, cutting, settings)| {
-        slices::one_is_a_plain_fit(&case, &cutting, &settings);
+        cascades::one_is_a_plain_fit(&case, &cutting, &settings);
     });
 }
 
 #[test]
 fn every_depth_is_in_one_slice() {
     run(1000, &(case(), cutting(), settings(), any::<u64>()), |(case, cutting, settings, seed)| {
-        slices::every_depth_is_in_one(&case, &cutting, &settings, seed);
+        cascades::every_depth_is_in_one(&case, &cutting, &settings, seed);
     });
 }
 
 #[test]
-fn maps_hold_what_is_visible_in_their_slices() {
+fn maps_hold_what_is_visible_in_their_cascades() {
     run(2000, &(case(), cutting(), settings(), any::<u64>()), |(case, cutting, settings, seed)| {
-        slices::maps_hold_what_is_visible(&case, &cutting, &settings, seed);
+        cascades::maps_hold_what_is_visible(&case, &cutting, &settings, seed);
     });
 }
 
 #[test]
 fn bodies_of_slices_hold_what_casts() {
     run(2000, &(case(), cutting(), any::<u64>()), |(case, cutting, seed)| {
-        slices::bodies_hold_what_casts(&case, &cutting, seed);
+        cascades::bodies_hold_what_casts(&case, &cutting, seed);
     });
 }
 
 #[test]
 fn orthographic_views_are_cut_uniformly() {
-    run(2000, &(case(), cutting()), |(case, cutting)| slices::orthographic_cuts_are_uniform(&case, &cutting));
+    run(2000, &(case(), cutting()), |(case, cutting)| cascades::orthographic_cuts_are_uniform(&case, &cutting));
 }

@@ -154,13 +154,13 @@ fn tampered_lights() {
 }
 
 #[test]
-fn slices() {
+fn cascades() {
     [SplitScheme::Uniform, SplitScheme::Logarithmic, SplitScheme::Practical(0.1)].into_iter().for_each(comes_back);
     [CascadeLayout::Array, CascadeLayout::Atlas].into_iter().for_each(comes_back);
     let scene = Scene::from_box((-50.0, -3.0, -90.0), (50.0, 5.0, 0.0)).unwrap();
     let cuts = CascadeSplits::Visible { count: 5, split: SplitScheme::Practical(0.1) };
-    let slices = Cascades::new(&view(100.0), &spot(), &scene, cuts, 0.1).unwrap();
-    let maps = slices.fit(&Settings::default());
+    let cascades = Cascades::new(&view(100.0), &spot(), &scene, cuts, 0.1).unwrap();
+    let maps = cascades.fit(&Settings::default());
     comes_back(maps.extent(CascadeLayout::Atlas));
     comes_back(maps.tile(4, CascadeLayout::Atlas).unwrap());
 }
@@ -180,21 +180,6 @@ fn settings() {
     tampered(&settings, "/map_width", json!(-1), "expected u32");
     tampered(&settings, "/image_height", json!(1_000_000), "image_height must lie in [4, 65536]");
     tampered(&settings, "/border", json!(500), "border must lie in");
-}
-
-/// From when all maps were square.
-#[test]
-fn settings_of_one_size() {
-    let settings = Settings::new(512, 720).unwrap().with_border(7).unwrap();
-    let mut stored = to_value(settings).unwrap();
-    let fields = stored.as_object_mut().unwrap();
-    let width = fields.remove("map_width").unwrap();
-    assert_eq!(fields.remove("map_height"), Some(width.clone()));
-    fields.insert("map_size".into(), width);
-    assert_eq!(from_value::<Settings>(stored.clone()).unwrap(), settings);
-    stored["map_size"] = json!(3);
-    let error = from_value::<Settings>(stored).unwrap_err().to_string();
-    assert!(error.contains("map_width must lie in [4, 65536]; got 3"), "{error}");
 }
 
 #[cfg(feature = "alloc")]

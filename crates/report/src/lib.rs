@@ -12,7 +12,7 @@
 //! | [`front`] | what nothing else beats in both time and error |
 //! | [`arithmetic`] | the same body and matrix in f32, f64, f64 with bounds, and exactly |
 //! | [`body`] | what is drawn and what is wasted, by the body that is fitted to; the crate and its peers |
-//! | [`map`] | wrong pixels and aliasing over time, by warp, slices, size, kind of map and test |
+//! | [`map`] | wrong pixels and aliasing over time, by warp, cascades, size, kind of map and test |
 //! | [`growth`] | how cost grows with lights, casters, planes, texels and triangles |
 //! | [`advice`] | the settings that follow from it |
 //! | [`chapter`] | what a chapter is: findings, tables, plots, raw figures |

@@ -6,7 +6,7 @@ use shadowfit::{DepthFormat, cascades::Cascades};
 
 use super::values::parse_bias;
 use crate::gpu::{Bias, Filter, Points};
-use crate::maps::{ClipConvention, Slicing, SplitArg, Technique};
+use crate::maps::{Cascading, ClipConvention, SplitArg, Technique};
 use crate::run::{Cutting, Options};
 use crate::trace::Faces;
 
@@ -25,11 +25,11 @@ pub struct MapArgs {
     /// Number of cascades, one map each; may be given several times. Stable maps split the range between the
     /// camera's near and far planes, others the depth range of the receivers
     #[arg(long, value_name = "COUNT", value_parser = RangedU64ValueParser::<u32>::new().range(1..=Cascades::MAX as u64))]
-    pub slices: Vec<u32>,
+    pub cascades: Vec<u32>,
 
     /// Split scheme of the cascades: uniform, log, or blended:PART, where PART is the weight of the logarithmic
     /// splits, 0 to 1
-    #[arg(long, value_name = "SPLIT", default_value_t, requires = "slices")]
+    #[arg(long, value_name = "SPLIT", default_value_t, requires = "cascades")]
     pub split: SplitArg,
 
     /// Depth format
@@ -71,10 +71,11 @@ impl MapArgs {
     pub fn options(&self, frames: u32) -> Vec<Options> {
         let techniques = Technique::or_compared(&self.techniques);
         let sizes = if self.sizes.is_empty() { &[1024][..] } else { &self.sizes };
-        let slicing = |&count: &u32| Some(Slicing { count: count as usize, split: self.split });
-        let slicings = if self.slices.is_empty() { vec![None] } else { self.slices.iter().map(slicing).collect() };
-        let of = |map_size: u32, slicing: Option<Slicing>, technique: Technique| Options {
-            slicing,
+        let cascading = |&count: &u32| Some(Cascading { count: count as usize, split: self.split });
+        let cascadings =
+            if self.cascades.is_empty() { vec![None] } else { self.cascades.iter().map(cascading).collect() };
+        let of = |map_size: u32, cascading: Option<Cascading>, technique: Technique| Options {
+            cascading,
             clip: self.clip,
             format: self.format.into(),
             faces: self.faces,
@@ -87,8 +88,8 @@ impl MapArgs {
         };
         let mut all = Vec::new();
         for &size in sizes {
-            for &slicing in &slicings {
-                all.extend(techniques.iter().map(|&technique| of(size, slicing, technique)));
+            for &cascading in &cascadings {
+                all.extend(techniques.iter().map(|&technique| of(size, cascading, technique)));
             }
         }
         all

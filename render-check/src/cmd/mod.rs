@@ -34,7 +34,7 @@ Examples:
       a point light inside the scene: a map for each cube face
   render-check draw city.glb --near 1 --far inf --size 2048
       only the fit and its pictures, by ray casting: needs no graphics driver
-  render-check street --slices 1 --slices 4 --technique uniform --technique best
+  render-check street --cascades 1 --cascades 4 --technique uniform --technique best
       one cascade, then four
   render-check walk street --steps 48
       moves the camera and counts the pixels that flicker
@@ -184,9 +184,9 @@ mod tests {
             "--bias 3",
             "--bias 1,NaN",
             "--technique lispsm",
-            "--slices 0",
-            "--slices 9",
-            "--slices 2 --split blended",
+            "--cascades 0",
+            "--cascades 9",
+            "--cascades 2 --split blended",
             "--split log",
             "--close-up 1,2",
             "--close-up 1,2,0",

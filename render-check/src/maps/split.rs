@@ -23,7 +23,7 @@ pub enum Split {
         /// The splits.
         cuts: CascadeSplits<'static>,
         /// The cascades.
-        slices: Box<Cascades<'static>>,
+        cascades: Box<Cascades<'static>>,
     },
 }
 
@@ -48,8 +48,8 @@ impl Split {
 
     /// The cascades of a view, with their splits.
     #[must_use]
-    pub fn slices(cuts: CascadeSplits<'static>, slices: Cascades<'static>) -> Self {
-        Self::Depths { cuts, slices: Box::new(slices) }
+    pub fn cascades(cuts: CascadeSplits<'static>, cascades: Cascades<'static>) -> Self {
+        Self::Depths { cuts, cascades: Box::new(cascades) }
     }
 
     /// The number of parts.
@@ -57,7 +57,7 @@ impl Split {
     pub fn parts(&self) -> usize {
         match self {
             Self::Directions { axes, .. } => axes.len(),
-            Self::Depths { slices, .. } => slices.len(),
+            Self::Depths { cascades, .. } => cascades.len(),
         }
     }
 
@@ -69,7 +69,7 @@ impl Split {
                 let along = |part: usize| axes[part].dot(point - position);
                 (1..axes.len()).fold(0, |nearest, part| if along(part) > along(nearest) { part } else { nearest })
             }
-            Self::Depths { slices, .. } => slices.index_at(slices[0].focus.view().depth(point)),
+            Self::Depths { cascades, .. } => cascades.index_at(cascades[0].focus.view().depth(point)),
         }
     }
 
@@ -96,7 +96,7 @@ impl Split {
     pub fn depths(&self, part: usize) -> Option<[f64; 2]> {
         match self {
             Self::Directions { .. } => None,
-            Self::Depths { slices, .. } => Some([slices[part].near, slices[part].far]),
+            Self::Depths { cascades, .. } => Some([cascades[part].near, cascades[part].far]),
         }
     }
 
@@ -104,10 +104,10 @@ impl Split {
     /// cascades.
     #[must_use]
     pub fn ends(&self) -> Option<[f32; Cascades::MAX]> {
-        let Self::Depths { slices, .. } = self else { return None };
+        let Self::Depths { cascades, .. } = self else { return None };
         let mut ends = [f32::MAX; Cascades::MAX];
-        for (end, slice) in ends.iter_mut().zip(&slices.as_slice()[..slices.len() - 1]) {
-            *end = slice.far as f32;
+        for (end, cascade) in ends.iter_mut().zip(&cascades.as_slice()[..cascades.len() - 1]) {
+            *end = cascade.far as f32;
         }
         Some(ends)
     }
@@ -118,8 +118,8 @@ impl Split {
     pub fn depth_row(&self, origin: DVec3) -> DVec4 {
         match self {
             Self::Directions { .. } => DVec4::ZERO,
-            Self::Depths { slices, .. } => {
-                let view = slices[0].focus.view();
+            Self::Depths { cascades, .. } => {
+                let view = cascades[0].focus.view();
                 view.forward().extend(view.depth(origin))
             }
         }
@@ -131,7 +131,7 @@ mod tests {
     use shadowfit::{Light, Scene, View};
 
     use super::*;
-    use crate::maps::{Slicing, SplitArg, slices};
+    use crate::maps::{Cascading, SplitArg, cascades};
 
     #[test]
     fn halves_are_on_both_sides() {
@@ -156,17 +156,18 @@ mod tests {
     }
 
     #[test]
-    fn slices_follow_one_another() {
+    fn cascades_follow_one_another() {
         let (eye, forward) = (DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.6, 0.0, -0.8));
         let view = View::perspective(eye, forward, DVec3::Y, 1.0, 1.6, 0.5, 64.0).expect("sound");
         let light = Light::directional(DVec3::Y).expect("sound");
         let scene = Scene::from_box(DVec3::splat(-500.0), DVec3::splat(500.0)).expect("sound");
-        let cuts = Slicing { count: 7, split: SplitArg(shadowfit::cascades::SplitScheme::Logarithmic) }.cuts(true);
-        let split = Split::slices(cuts, slices(&view, &light, &scene, cuts).expect("sound"));
-        let ends = split.ends().expect("slices");
+        let cuts =
+            Cascading { count: 7, split: SplitArg(shadowfit::cascades::SplitScheme::Logarithmic) }.cuts(true);
+        let split = Split::cascades(cuts, cascades(&view, &light, &scene, cuts).expect("sound"));
+        let ends = split.ends().expect("cascades");
         assert_eq!((split.parts(), ends[6], ends[7]), (7, f32::MAX, f32::MAX));
         for part in 0..7 {
-            let [near, far] = split.depths(part).expect("slices");
+            let [near, far] = split.depths(part).expect("cascades");
             // From 0.5 to 64 in doublings.
             assert!((near - 0.5 * 2_f64.powi(part as i32)).abs() < 1e-5 && (far / near - 2.0).abs() < 1e-5);
             for depth in [1.001 * near, 0.999 * far] {

@@ -15,7 +15,7 @@ use shadowfit::{
 use super::cut::{Cut, Cutting};
 use super::options::Options;
 use crate::gpu::{Geometry, MapDraw, MapPass, ShadowMaps};
-use crate::maps::{Layout, NoMap, Split, map_or_reason, slices};
+use crate::maps::{Layout, NoMap, Split, cascades, map_or_reason};
 use crate::scene::{Mesh, Object};
 use crate::stage::Stage;
 
@@ -118,8 +118,8 @@ impl FittedMaps {
     ) -> Result<Result<Self, NoMap>> {
         let is_paraboloid = options.technique.is_paraboloid();
         ensure!(
-            options.slicing.is_none() || !(is_paraboloid || options.technique.has_faces()),
-            "slices have a frustum each: '{}' takes no --slices",
+            options.cascading.is_none() || !(is_paraboloid || options.technique.has_faces()),
+            "cascades have a frustum each: '{}' takes no --cascades",
             options.technique
         );
         if is_paraboloid && light.position().is_some() {
@@ -233,9 +233,10 @@ impl FittedMaps {
         };
         let view = &stage.fitted_view;
         if let (Split::Depths { cuts, .. }, [light]) = (&self.split, &self.lights[..]) {
-            let slices = slices(view, light, &stage.bounds, *cuts);
-            return slices
-                .map_or(0, |slices| (0..).zip(slices.iter()).map(|(part, slice)| maps(part, &slice.focus)).sum());
+            let cascades = cascades(view, light, &stage.bounds, *cuts);
+            return cascades.map_or(0, |cascades| {
+                (0..).zip(cascades.iter()).map(|(part, cascade)| maps(part, &cascade.focus)).sum()
+            });
         }
         let of_light = |(part, light)| maps(part, &Focus::new(view, light, &stage.bounds));
         self.lights.iter().enumerate().map(of_light).sum()
@@ -308,10 +309,10 @@ impl FittedMaps {
 /// The parts of a light with a map each; cascades share one light. Suns and spots, which need no cube, have one map
 /// with every technique.
 fn parts(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<(Split, Vec<Light>)> {
-    if let Some(slicing) = options.slicing {
-        let cuts = slicing.cuts(options.technique.stays_put());
-        let slices = slices(&stage.fitted_view, light, &stage.bounds, cuts)?;
-        return Ok((Split::slices(cuts, slices), vec![*light]));
+    if let Some(cascading) = options.cascading {
+        let cuts = cascading.cuts(options.technique.stays_put());
+        let cascades = cascades(&stage.fitted_view, light, &stage.bounds, cuts)?;
+        return Ok((Split::cascades(cuts, cascades), vec![*light]));
     }
     let overlap = CubeFace::overlap(options.filter.reach(), options.map_size, options.border());
     match light.position() {
@@ -330,6 +331,6 @@ fn foci(stage: &Stage<'_>, split: &Split, lights: &[Light]) -> Vec<Focus<'static
         Split::Directions { .. } => {
             lights.iter().map(|light| Focus::new(&stage.fitted_view, light, &stage.bounds)).collect()
         }
-        Split::Depths { slices, .. } => slices.iter().map(|slice| slice.focus.clone()).collect(),
+        Split::Depths { cascades, .. } => cascades.iter().map(|cascade| cascade.focus.clone()).collect(),
     }
 }

@@ -5,7 +5,7 @@ use shadowfit::{DepthFormat, Settings};
 
 use super::cut::Cutting;
 use crate::gpu::{Bias, Filter, MapPass, Points};
-use crate::maps::{ClipConvention, Layout, Slicing, Technique};
+use crate::maps::{Cascading, ClipConvention, Layout, Technique};
 use crate::stage::Stage;
 use crate::trace::Faces;
 
@@ -17,7 +17,7 @@ pub struct Options {
     /// Texels along each side.
     pub map_size: u32,
     /// The cascades; `None` for a single map.
-    pub slicing: Option<Slicing>,
+    pub cascading: Option<Cascading>,
     /// The clip space of the matrix.
     pub clip: ClipConvention,
     /// The depth buffer's format.
@@ -43,7 +43,7 @@ impl Options {
         Self {
             technique,
             map_size,
-            slicing: None,
+            cascading: None,
             clip: ClipConvention::Wgpu,
             format: DepthFormat::Unorm24,
             faces: Faces::All,
@@ -58,7 +58,7 @@ impl Options {
     /// Technique and map size in words.
     #[must_use]
     pub fn name(&self) -> String {
-        let times = self.slicing.map_or_else(String::new, |slicing| format!("{} x ", slicing.count));
+        let times = self.cascading.map_or_else(String::new, |cascading| format!("{} x ", cascading.count));
         format!("{} {times}{}", self.technique, self.map_size)
     }
 

@@ -9,7 +9,7 @@ use super::map_run::{MapRun, Times};
 use super::options::Options;
 use super::prediction::Prediction;
 use crate::gpu::{Filter, MapPass};
-use crate::maps::{ClipConvention, Layout, NoMap, Slicing, Technique};
+use crate::maps::{Cascading, ClipConvention, Layout, NoMap, Technique};
 use crate::stage::StageLight;
 use crate::verdict::Verdict;
 
@@ -49,7 +49,7 @@ pub struct RunReport {
     /// Texels along each side.
     pub map_size: u32,
     /// How the view is split into cascades; `None` where it is not.
-    pub slicing: Option<Slicing>,
+    pub cascading: Option<Cascading>,
     /// The clip space of the matrix.
     pub clip: ClipConvention,
     /// The filter.
@@ -175,7 +175,7 @@ impl RunReport {
             class: shadowfit::warp::classify(view, &light.light).kind.to_string(),
             technique: options.technique,
             map_size: options.map_size,
-            slicing: options.slicing,
+            cascading: options.cascading,
             clip: options.clip,
             filter: options.filter,
             result,

@@ -26,7 +26,7 @@ pub(super) fn read_indices(accessor: &Accessor, binary: &[u8]) -> Result<Vec<u32
     }
 }
 
-/// The elements of an accessor; `read` gets slices of exactly one element's size.
+/// The elements of an accessor; `read` gets cascades of exactly one element's size.
 fn read_elements<T>(accessor: &Accessor, binary: &[u8], read: impl Fn(&[u8]) -> T) -> Result<Vec<T>> {
     ensure!(accessor.sparse().is_none(), "sparse accessors are not read: export without them");
     let Some(view) = accessor.view() else {

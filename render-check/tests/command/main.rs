@@ -124,14 +124,14 @@ fn nothing_flickers_where_the_camera_stands_still() {
 
 /// Lights that stand still, and a camera that moves, that turns, and that does both: what is seen at one place of the world
 /// keeps its shadow, and so should the map. A stable one changes it where f32 rounds a point about another eye to another
-/// texel, which is a pixel here and there, and, in slices, where the point passes to another map; a uniform one along all
+/// texel, which is a pixel here and there, and, in cascades, where the point passes to another map; a uniform one along all
 /// edges of shadows.
 #[test]
 fn a_stable_map_does_not_flicker() {
     let directory = temporary();
     let walk = "walk --steps 6 --technique uniform --technique stable --light sun:-0.8,0.6,0.2 \
                 --light spot:6,6,-1/0,0,-5/50 --width 240 --height 150 --size 512";
-    for way in ["", "--turn 0", "--pace 1e-9", "--slices 3"] {
+    for way in ["", "--turn 0", "--pace 1e-9", "--cascades 3"] {
         let line = format!("{walk} {way}");
         let output = run(&line.split_whitespace().collect::<Vec<_>>(), directory.path());
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -183,23 +183,23 @@ fn a_close_up_shows_the_truth_and_every_map() {
 }
 
 #[test]
-fn slices_are_drawn_as_the_command_line_asks() {
+fn cascades_are_drawn_as_the_command_line_asks() {
     let directory = temporary();
     let arguments =
-        "--light sun:1,1,0 --technique uniform --technique stable --slices 1 --slices 3 --split blended:0.5";
+        "--light sun:1,1,0 --technique uniform --technique stable --cascades 1 --cascades 3 --split blended:0.5";
     let output = run_small(&arguments.split(' ').collect::<Vec<_>>(), directory.path());
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(String::from_utf8_lossy(&output.stdout).contains("stable 3 x 16"));
     let out = directory.path().join("out/chess-board");
-    let image = image::open(out.join("1-sun-uniform-3x16-slices.png")).expect("a picture");
+    let image = image::open(out.join("1-sun-uniform-3x16-cascades.png")).expect("a picture");
     assert_eq!((image.width(), image.height()), (2 * 32 + 2, 20));
     let report: serde_json::Value =
         serde_json::from_slice(&fs::read(out.join("check.json")).expect("written")).expect("sound JSON");
     let counts: Vec<_> =
-        report["runs"].as_array().expect("a list").iter().map(|run| &run["slicing"]["count"]).collect();
+        report["runs"].as_array().expect("a list").iter().map(|run| &run["cascading"]["count"]).collect();
     assert_eq!(counts, [1, 1, 3, 3]);
     let run = &report["runs"][2];
-    assert_eq!((&run["slicing"]["split"], &run["texels"]), (&"blended:0.5".into(), &(3 * 256).into()));
+    assert_eq!((&run["cascading"]["split"], &run["texels"]), (&"blended:0.5".into(), &(3 * 256).into()));
     assert!(
         run["limit"].as_f64() < run["predicted"].as_f64()
             && run["predicted"].as_f64() <= run["predicted_at_most"].as_f64()
@@ -207,7 +207,7 @@ fn slices_are_drawn_as_the_command_line_asks() {
     let ends = |map: usize| &run["maps"][map]["depths"];
     assert!((0..2).all(|map| ends(map)[1] == ends(map + 1)[0] && ends(map)[1].is_f64()), "{run}");
 
-    let endless = ["--technique", "stable", "--slices", "2", "--far", "inf", "--light", "sun:0,1,0.2"];
+    let endless = ["--technique", "stable", "--cascades", "2", "--far", "inf", "--light", "sun:0,1,0.2"];
     assert!(complaint(&run_small(&endless, directory.path())).contains("--far"));
 }
 

@@ -1,11 +1,11 @@
-//! A view in slices, each with a map of its own, against the truth. The hard cases are in `sweep.rs`.
+//! A view in cascades, each with a map of its own, against the truth. The hard cases are in `sweep.rs`.
 
 use std::path::Path;
 use std::time::Duration;
 
 use super::common::gpu;
 use render_check::gpu::{Filter, Gpu};
-use render_check::maps::{Slicing, SplitArg, Technique};
+use render_check::maps::{Cascading, SplitArg, Technique};
 use render_check::run::{FittedMaps, MapRun, Options, run, run_fitted};
 use render_check::scene::{self, LoadedScene};
 use render_check::stage::{Stage, StageLight};
@@ -23,9 +23,9 @@ fn scene(name: &str) -> (LoadedScene, View) {
     (scene, view)
 }
 
-fn sliced(technique: Technique, count: usize) -> Options {
-    let slicing = Some(Slicing { count, split: SplitArg::default() });
-    Options { slicing, ..Options::new(technique, 256) }
+fn cascaded(technique: Technique, count: usize) -> Options {
+    let cascading = Some(Cascading { count, split: SplitArg::default() });
+    Options { cascading, ..Options::new(technique, 256) }
 }
 
 fn run_one(stage: &Stage<'_>, light: &StageLight, options: &Options) -> MapRun {
@@ -36,7 +36,7 @@ fn stage<'a>(gpu: &'a Gpu, tracer: &'a Tracer<'a>, view: &View) -> Stage<'a> {
     Stage::new(gpu, tracer, view, IMAGE).expect("drawn")
 }
 
-/// Each number of slices in two scenes, whatever spreads the texels of their maps. Next to the cuts, where a caster could be
+/// Each number of cascades in two scenes, whatever spreads the texels of their maps. Next to the cuts, where a caster could be
 /// missing from both maps and a pixel be tested against the wrong one, pixels are as right as elsewhere.
 #[test]
 fn no_slice_misses_a_caster_and_no_cut_shows() {
@@ -49,7 +49,7 @@ fn no_slice_misses_a_caster_and_no_cut_shows() {
         let (mut at_cuts, mut faults_at_cuts) = (0, 0);
         for technique in [Technique::Uniform, Technique::Psm, Technique::Best, Technique::Stable] {
             for (count, light) in (1..=Cascades::MAX).zip(lights.iter().cycle()) {
-                let run = run_one(&stage, light, &sliced(technique, count));
+                let run = run_one(&stage, light, &cascaded(technique, count));
                 let (split, counts, case) = (
                     &run.fitted.split,
                     run.verdict.counts,
@@ -74,18 +74,18 @@ fn no_slice_misses_a_caster_and_no_cut_shows() {
     }
 }
 
-/// With the size of each map as it is, every slice more predicts less of a uniform map, and any number less than one slice of the best one, never less than the limit; and
+/// With the size of each map as it is, every cascade more predicts less of a uniform map, and any number less than one cascade of the best one, never less than the limit; and
 /// wrong pixels fall:
-/// of a uniform map to a fifth by the fourth slice, of the best one to a half.
+/// of a uniform map to a fifth by the fourth cascade, of the best one to a half.
 #[test]
-fn wrong_pixels_fall_with_the_number_of_slices() {
+fn wrong_pixels_fall_with_the_number_of_cascades() {
     let (gpu, (scene, view)) = (gpu(), scene("street"));
     let tracer = Tracer::new(&scene.mesh).expect("it has triangles");
     let stage = stage(&gpu, &tracer, &view).narrowed().expect("read back");
     let light = stage.light(scene.lights[0]).expect("sound");
     for (technique, fall) in [(Technique::Uniform, [2.0, 2.8, 4.0]), (Technique::Best, [1.5, 2.0, 2.5])] {
         let runs: Vec<_> =
-            (1..=Cascades::MAX).map(|count| run_one(&stage, &light, &sliced(technique, count))).collect();
+            (1..=Cascades::MAX).map(|count| run_one(&stage, &light, &cascaded(technique, count))).collect();
         let predicted = |run: &MapRun| run.prediction.predicted.expect("frusta");
         for pair in runs.windows(2) {
             // The best map's worst is not what it is chosen by alone.
@@ -118,14 +118,14 @@ fn one_slice_is_the_view() {
     let stage = stage(&gpu, &tracer, &view);
     let light = stage.light(scene.lights[0]).expect("sound");
     for technique in [Technique::Psm, Technique::Stable] {
-        let options = sliced(technique, 1);
-        let [one, whole] = [options, Options { slicing: None, ..options }].map(|it| run_one(&stage, &light, &it));
+        let options = cascaded(technique, 1);
+        let [one, whole] = [options, Options { cascading: None, ..options }].map(|it| run_one(&stage, &light, &it));
         assert_eq!(one.fitted.maps[0].as_ref().map(|it| &it.map), whole.fitted.maps[0].as_ref().map(|it| &it.map));
         assert!(one.verdict == whole.verdict && one.prediction == whole.prediction);
     }
 }
 
-/// The verdict looks into the map of a pixel's own slice: what is not drawn there is found missing, though another map
+/// The verdict looks into the map of a pixel's own cascade: what is not drawn there is found missing, though another map
 /// holds it.
 #[test]
 fn a_caster_that_is_left_out_of_one_slice_is_found_missing() {
@@ -133,7 +133,7 @@ fn a_caster_that_is_left_out_of_one_slice_is_found_missing() {
     let tracer = Tracer::new(&scene.mesh).expect("it has triangles");
     let stage = stage(&gpu, &tracer, &view).narrowed().expect("read back");
     let light = stage.light(scene.lights[1]).expect("sound");
-    let options = sliced(Technique::Uniform, 4);
+    let options = cascaded(Technique::Uniform, 4);
     let fitted = FittedMaps::new(&stage, &light.light, &options).expect("sound").expect("a map");
     for part in 0..4 {
         let mut broken = fitted.clone();
@@ -147,7 +147,7 @@ fn a_caster_that_is_left_out_of_one_slice_is_found_missing() {
             let is_inside = fitted.split.part_of(surface.point) == part;
             *(if is_inside { &mut inside } else { &mut outside }) += 1;
         }
-        assert!(inside > 10 && outside == 0, "slice {part}: {inside} missing in it, {outside} elsewhere");
+        assert!(inside > 10 && outside == 0, "cascade {part}: {inside} missing in it, {outside} elsewhere");
     }
 }
 
@@ -159,7 +159,7 @@ fn wide_filters_need_no_other_slices_texels() {
     let stage = stage(&gpu, &tracer, &view);
     for spec in &scene.lights {
         let light = stage.light(*spec).expect("sound");
-        let options = Options { filter: Filter::Pcf(5), ..sliced(Technique::Uniform, 5) };
+        let options = Options { filter: Filter::Pcf(5), ..cascaded(Technique::Uniform, 5) };
         let counts = run_one(&stage, &light, &options).verdict.counts;
         assert_eq!(counts.missing, 0, "{spec}");
         assert!(counts.fraction(counts.faults()) < 0.002, "{spec}: {counts:?}");
@@ -167,13 +167,13 @@ fn wide_filters_need_no_other_slices_texels() {
 }
 
 #[test]
-fn slices_are_of_frusta() {
+fn cascades_are_of_frusta() {
     let (gpu, (scene, view)) = (gpu(), scene("room"));
     let tracer = Tracer::new(&scene.mesh).expect("it has triangles");
     let stage = stage(&gpu, &tracer, &view);
     let light = stage.light(scene.lights[0]).expect("sound");
     for technique in [Technique::Cube, Technique::Paraboloid] {
-        let refused = run(&stage, &light, &sliced(technique, 2)).err().expect("refused");
-        assert!(refused.to_string().contains("--slices"), "{refused}");
+        let refused = run(&stage, &light, &cascaded(technique, 2)).err().expect("refused");
+        assert!(refused.to_string().contains("--cascades"), "{refused}");
     }
 }

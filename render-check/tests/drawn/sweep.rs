@@ -251,8 +251,8 @@ fn stable_maps_miss_no_caster() {
 }
 
 #[test]
-fn slices_miss_no_caster() {
-    let runs = sweep("slices", 0.012);
+fn cascades_miss_no_caster() {
+    let runs = sweep("cascades", 0.012);
     assert!(!runs.is_empty());
 }
 

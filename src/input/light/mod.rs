@@ -67,7 +67,6 @@ enum Shape {
     Spot {
         axis: DVec3,
         half_angle: f64,
-        #[cfg_attr(feature = "serde", serde(default))]
         up: Option<DVec3>,
     },
     /// Tangents of the half angles: across `up`, then along it. `up` is a unit vector across the axis.

@@ -5,7 +5,6 @@ use super::{DVec3, InputError, Plane, Shape, Within};
 #[derive(serde::Deserialize)]
 pub(super) struct Light {
     kind: Kind,
-    #[serde(default)]
     within: Within,
 }
 

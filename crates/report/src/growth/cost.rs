@@ -24,8 +24,8 @@ pub enum Counted {
     Texels,
     /// Triangles drawn into a map.
     Triangles,
-    /// Slices of a view.
-    Slices,
+    /// Cascades of a view.
+    Cascades,
 }
 
 impl fmt::Display for Counted {
@@ -36,7 +36,7 @@ impl fmt::Display for Counted {
             Self::Planes => "planes of S",
             Self::Texels => "texels",
             Self::Triangles => "triangles",
-            Self::Slices => "slices",
+            Self::Cascades => "cascades",
         })
     }
 }
@@ -63,7 +63,7 @@ pub enum Work {
     Sort,
     /// A scene of lists made, and a uniform fit to it.
     FitLists,
-    /// A view cut into slices.
+    /// A view cut into cascades.
     Cut,
     /// The same, and a uniform fit of each.
     CutAndFitUniform,

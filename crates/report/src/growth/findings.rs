@@ -2,7 +2,7 @@
 
 use super::cost::{Cost, Counted, Work};
 use super::curve::Curve;
-use super::write_up::{Exponent, Seconds, count};
+use super::words::{Exponent, Seconds, count};
 use crate::chapter::Figure;
 
 /// What costs no more than so many times as much, and no less, costs the same.
@@ -20,7 +20,7 @@ pub(super) fn findings(costs: &[Cost]) -> Vec<String> {
     let several = |counted, works: &[Work]| works.iter().map(|&work| of(counted, work)).collect::<Option<Vec<_>>>();
     let fits = [Work::FitUniform, Work::FitLightSpace, Work::FitBest];
     let setup = [Work::FitUniform, Work::FitBest, Work::Body];
-    let slices = [Work::Cut, Work::CutAndFitUniform, Work::CutAndFitBest];
+    let cascades = [Work::Cut, Work::CutAndFitUniform, Work::CutAndFitBest];
     let cull = (of(Counted::Casters, Work::CullInBulk), of(Counted::Casters, Work::CullOneByOne));
     let one = |counted, work| of(counted, work).map(|curve| grows(&curve));
     [
@@ -31,7 +31,7 @@ pub(super) fn findings(costs: &[Cost]) -> Vec<String> {
         one(Counted::Casters, Work::Plan),
         one(Counted::Casters, Work::FitLists),
         several(Counted::Planes, &setup).map(|works| narrow(&works)),
-        several(Counted::Slices, &slices).map(|works| narrow(&works)),
+        several(Counted::Cascades, &cascades).map(|works| narrow(&works)),
         several(Counted::Texels, &setup[..2]).map(|fits| map_size(&fits)),
         one(Counted::Texels, Work::MapPass),
         one(Counted::Texels, Work::ShadowTest),

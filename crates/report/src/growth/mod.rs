@@ -1,4 +1,4 @@
-//! How cost grows: with lights, casters, planes of S, texels of the map, triangles and slices.
+//! How cost grows: with lights, casters, planes of S, texels of the map, triangles and cascades.
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -8,6 +8,7 @@
 //! | `terrain`, `card` | what is timed on the card |
 //! | [`curve`] | the figures of one work as a curve, and its exponents |
 //! | `findings`, `write_up` | what the figures say |
+//! | `words` | counts, times and exponents as they are written |
 
 mod card;
 mod casters;
@@ -20,6 +21,7 @@ mod terrain;
 #[cfg(test)]
 mod tests;
 mod town;
+mod words;
 mod write_up;
 
 use anyhow::{Context, Result};
@@ -57,7 +59,7 @@ pub fn measure(size: Size) -> Result<Measured> {
     let costs = [
         part("lights", lights::measure(size))?,
         part("casters", casters::measure(size))?,
-        part("planes, map size and slices", setup::measure(size))?,
+        part("planes, map size and cascades", setup::measure(size))?,
         part("the card", card::measure(&gpu, size))?,
     ]
     .concat();

@@ -1,4 +1,4 @@
-//! Cost over what a fit is set up with: planes of S, texels of the map, slices of the view.
+//! Cost over what a fit is set up with: planes of S, texels of the map, cascades of the view.
 
 use std::hint::black_box;
 
@@ -31,7 +31,7 @@ const FITS: [(Work, Technique); 2] = [(Work::FitUniform, Technique::Uniform), (W
 
 /// Measures.
 pub(super) fn measure(size: Size) -> Result<Vec<Cost>> {
-    Ok([planes(size)?, texels(size)?, slices(size)?].concat())
+    Ok([planes(size)?, texels(size)?, cascades(size)?].concat())
 }
 
 fn planes(size: Size) -> Result<Vec<Cost>> {
@@ -84,21 +84,21 @@ fn texels(size: Size) -> Result<Vec<Cost>> {
     Ok(costs)
 }
 
-fn slices(size: Size) -> Result<Vec<Cost>> {
+fn cascades(size: Size) -> Result<Vec<Cost>> {
     let counts: Vec<usize> = (1..=Cascades::MAX).collect();
     let (view, sun, bounds) = (town::view()?, town::sun()?, town::bounds()?);
     let cut = |count| {
         let cuts = CascadeSplits::Visible { count, split: SplitScheme::Practical(0.5) };
         Cascades::new(black_box(&view), &sun, &bounds, cuts, 0.1)
     };
-    let mut costs = on_processor(Work::Cut, Counted::Slices, &counts, size, |count| Ok(move || cut(count)))?;
+    let mut costs = on_processor(Work::Cut, Counted::Cascades, &counts, size, |count| Ok(move || cut(count)))?;
     for (work, technique) in [(Work::CutAndFitUniform, Technique::Uniform), (Work::CutAndFitBest, Technique::Best)]
     {
         let settings = &town::settings(technique)?;
-        costs.extend(on_processor(work, Counted::Slices, &counts, size, |count| {
+        costs.extend(on_processor(work, Counted::Cascades, &counts, size, |count| {
             let maps = cut(count)?.fit(settings).maps().count();
-            ensure!(maps == count, "{maps} of {count} slices have a map");
-            Ok(move || cut(count).map(|slices| slices.fit(settings).maps().count()))
+            ensure!(maps == count, "{maps} of {count} cascades have a map");
+            Ok(move || cut(count).map(|cascades| cascades.fit(settings).maps().count()))
         })?);
     }
     Ok(costs)

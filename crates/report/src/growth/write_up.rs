@@ -1,11 +1,10 @@
 //! The chapter: tables and plots of the curves.
 
-use std::fmt;
-
 use anyhow::Result;
 
 use super::cost::{Cost, Counted};
 use super::curve::Curve;
+use super::words::{Exponent, Seconds, count};
 use super::{Measured, findings};
 use crate::chapter::{Axis, Chapter, Figure, Part, Plot, Point, Raw, Series, Table};
 
@@ -39,10 +38,10 @@ pub fn chapter(measured: &Measured) -> Result<Chapter> {
         )),
         Part::Plot(relative(
             "growth-setup",
-            "Time over planes of S and slices, relative to the fewest",
-            "Both axes relative to the first point: the planes of a box, and one slice. The steeper, the more one more \
+            "Time over planes of S and cascades, relative to the fewest",
+            "Both axes relative to the first point: the planes of a box, and one cascade. The steeper, the more one more \
              costs.",
-            &over(&[Counted::Planes, Counted::Slices]),
+            &over(&[Counted::Planes, Counted::Cascades]),
         )),
     ];
     parts.push(Part::Plot(relative(
@@ -74,7 +73,7 @@ fn opening(measured: &Measured) -> String {
         format!("The card is {card}; its passes are timed by its own clock.")
     };
     format!(
-        "How does cost grow with the number of lights, casters, planes of S, texels, triangles and slices? Each kind of \
+        "How does cost grow with the number of lights, casters, planes of S, texels, triangles and cascades? Each kind of \
          work is timed in turn for each number of things, round after round, in one town and one view. Times are medians; \
          how many times as long is the median, over the rounds, of a time over that of the fewest things in the same \
          round. An exponent k says that twice as many things take 2ᵏ times as long: it is the slope of the line of least \
@@ -110,14 +109,6 @@ fn table(curves: &[Curve<'_>]) -> Table {
     }
 }
 
-/// A number of things; texels by the side of the map.
-pub(super) fn count(cost: &Cost) -> String {
-    match cost.counted {
-        Counted::Texels => format!("{}²", cost.count.isqrt()),
-        _ => cost.count.to_string(),
-    }
-}
-
 /// A plot of times over numbers of things.
 fn absolute(name: &str, title: &str, caption: &str, counted: Counted, curves: &[&Curve<'_>]) -> Plot {
     let point = |cost: &&Cost| (cost.count as f64, 1e3 * cost.seconds);
@@ -147,29 +138,4 @@ fn series(name: String, curve: &Curve<'_>, point: impl Fn(&&Cost) -> (f64, f64))
 fn plot(name: &str, title: &str, caption: &str, [x, y]: [&str; 2], series: Vec<Series>) -> Plot {
     let (x, y) = (Axis::logarithmic(x), Axis::logarithmic(y));
     Plot { name: name.into(), title: title.into(), caption: caption.into(), x, y, series, front: false }
-}
-
-/// A time in the unit that suits it.
-pub(super) struct Seconds(pub(super) f64);
-
-impl fmt::Display for Seconds {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (unit, name) = match self.0.abs() {
-            size if size < 1e-6 => (1e-9, "ns"),
-            size if size < 1e-3 => (1e-6, "µs"),
-            size if size < 1.0 => (1e-3, "ms"),
-            _ => (1.0, "s"),
-        };
-        write!(f, "{} {name}", Figure(self.0 / unit))
-    }
-}
-
-/// An exponent, with two digits after the point.
-pub(super) struct Exponent(pub(super) f64);
-
-impl fmt::Display for Exponent {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // What rounds to nothing has no sign.
-        write!(f, "{:.2}", (self.0 * 100.0).round() / 100.0 + 0.0)
-    }
 }

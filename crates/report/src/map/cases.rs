@@ -1,7 +1,7 @@
 //! What is compared: in each comparison one thing varies, and all else stays.
 
 use render_check::gpu::{Bias, Filter};
-use render_check::maps::{ClipConvention, Slicing, SplitArg, Technique};
+use render_check::maps::{Cascading, ClipConvention, SplitArg, Technique};
 use render_check::run::Options;
 use render_check::trace::Faces;
 use shadowfit::DepthFormat;
@@ -41,12 +41,12 @@ pub struct Comparison {
     pub contenders: Vec<Options>,
 }
 
-/// Warps, sizes, and slices as engines have them.
+/// Warps, sizes, and cascades as engines have them.
 pub const WARPS: &str = "warps";
-/// One slice to eight, with as many texels in all.
-pub const SLICES_OF_SAME_SUM: &str = "slices-same-sum";
-/// One slice to eight, with as many texels each.
-pub const SLICES_OF_SAME_SIZE: &str = "slices-same-size";
+/// One cascade to eight, with as many texels in all.
+pub const CASCADES_OF_SAME_SUM: &str = "cascades-same-sum";
+/// One cascade to eight, with as many texels each.
+pub const CASCADES_OF_SAME_SIZE: &str = "cascades-same-size";
 /// Maps for lamps among what they light.
 pub const KINDS: &str = "kinds";
 /// Depth formats.
@@ -72,7 +72,7 @@ pub const ALL_WARPS: [Technique; 9] = [
 /// Those that are plotted, and measured in all sizes.
 pub const PLOTTED: [Technique; 4] = [Technique::Uniform, Technique::Psm, Technique::LightSpace, Technique::Best];
 
-/// Those that slices are cut with, and how many: as engines have cascades, and as the crate would.
+/// Those that cascades are cut with, and how many: as engines have cascades, and as the crate would.
 pub const SLICED: [(Technique, usize); 4] =
     [(Technique::Uniform, 4), (Technique::Stable, 4), (Technique::Best, 2), (Technique::Best, 4)];
 
@@ -100,12 +100,12 @@ pub fn comparisons(size: Size) -> Vec<Comparison> {
             contenders: warps(size, middle),
         },
         Comparison {
-            name: SLICES_OF_SAME_SUM,
+            name: CASCADES_OF_SAME_SUM,
             shots: deep.clone(),
             narrowed: both,
-            contenders: slices(|count| (f64::from(2 * middle) / (count as f64).sqrt()).round() as u32),
+            contenders: cascades(|count| (f64::from(2 * middle) / (count as f64).sqrt()).round() as u32),
         },
-        Comparison { name: SLICES_OF_SAME_SIZE, shots: deep, narrowed: both, contenders: slices(|_| middle) },
+        Comparison { name: CASCADES_OF_SAME_SIZE, shots: deep, narrowed: both, contenders: cascades(|_| middle) },
         Comparison {
             name: KINDS,
             shots: vec![ROOM_LAMP, ROOM_LAMP_IN_VIEW],
@@ -154,14 +154,14 @@ pub fn comparisons(size: Size) -> Vec<Comparison> {
     ]
 }
 
-/// So many slices, each where pixels grow by one factor.
-fn sliced(technique: Technique, count: usize, map_size: u32) -> Options {
-    let slicing = (count > 1).then(|| Slicing { count, split: SplitArg::default() });
-    Options { slicing, ..Options::new(technique, map_size) }
+/// So many cascades, each where pixels grow by one factor.
+fn cascaded(technique: Technique, count: usize, map_size: u32) -> Options {
+    let cascading = (count > 1).then(|| Cascading { count, split: SplitArg::default() });
+    Options { cascading, ..Options::new(technique, map_size) }
 }
 
 /// The uniform map of the middle size first. What is plotted is drawn in all sizes, the other warps in those around the
-/// middle, and slices in those whose texels are no more than the largest map's.
+/// middle, and cascades in those whose texels are no more than the largest map's.
 fn warps(size: Size, middle: u32) -> Vec<Options> {
     let sizes: &[u32] = if size == Size::Smoke { &[64, 128] } else { &[256, 512, 1024, 2048, 4096] };
     let mut all = vec![Options::new(Technique::Uniform, middle)];
@@ -171,7 +171,7 @@ fn warps(size: Size, middle: u32) -> Vec<Options> {
     }
     for (technique, count) in SLICED {
         let is_wanted = |of: &u32| *of <= middle;
-        all.extend(sizes.iter().filter(|of| is_wanted(of)).map(|&of| sliced(technique, count, of)));
+        all.extend(sizes.iter().filter(|of| is_wanted(of)).map(|&of| cascaded(technique, count, of)));
     }
     // The first is there twice by now.
     let again = (1..all.len()).find(|&index| all[index] == all[0]);
@@ -179,9 +179,9 @@ fn warps(size: Size, middle: u32) -> Vec<Options> {
     all
 }
 
-/// One slice to eight, uniform ones first, in maps whose size depends on their number.
-fn slices(map_size: impl Fn(usize) -> u32) -> Vec<Options> {
-    let of = |technique| [1, 2, 4, 8].map(|count| sliced(technique, count, map_size(count)));
+/// One cascade to eight, uniform ones first, in maps whose size depends on their number.
+fn cascades(map_size: impl Fn(usize) -> u32) -> Vec<Options> {
+    let of = |technique| [1, 2, 4, 8].map(|count| cascaded(technique, count, map_size(count)));
     [Technique::Uniform, Technique::LightSpace, Technique::Best].into_iter().flat_map(of).collect()
 }
 
@@ -215,18 +215,22 @@ mod tests {
                     assert!(!contenders[..index].contains(one), "{}: {}", comparison.name, one.name());
                 }
                 let is_middle = |options: &Options| options.map_size == middle_size(size);
-                assert!(comparison.name == SLICES_OF_SAME_SUM || is_middle(&contenders[0]), "{}", comparison.name);
+                assert!(
+                    comparison.name == CASCADES_OF_SAME_SUM || is_middle(&contenders[0]),
+                    "{}",
+                    comparison.name
+                );
                 assert!(!comparison.shots.is_empty() && !comparison.narrowed.is_empty(), "{}", comparison.name);
             }
         }
     }
 
     #[test]
-    fn slices_of_one_sum_have_as_many_texels() {
+    fn cascades_of_one_sum_have_as_many_texels() {
         let all = comparisons(Size::Full);
-        let same = all.iter().find(|comparison| comparison.name == SLICES_OF_SAME_SUM).expect("it is there");
+        let same = all.iter().find(|comparison| comparison.name == CASCADES_OF_SAME_SUM).expect("it is there");
         for options in &same.contenders {
-            let count = options.slicing.map_or(1, |slicing| slicing.count);
+            let count = options.cascading.map_or(1, |cascading| cascading.count);
             let texels = count as f64 * f64::from(options.map_size).powi(2);
             assert!((texels / 2048_f64.powi(2) - 1.0).abs() < 1e-3, "{}", options.name());
         }

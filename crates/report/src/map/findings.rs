@@ -3,7 +3,7 @@
 use render_check::maps::Technique;
 
 use super::Measured;
-use super::cases::{ALL_WARPS, FILTERS, FORMATS, KINDS, PLOTTED, SLICES_OF_SAME_SUM, TESTS};
+use super::cases::{ALL_WARPS, CASCADES_OF_SAME_SUM, FILTERS, FORMATS, KINDS, PLOTTED, TESTS};
 use super::record::Record;
 use super::summary::Mean;
 use super::survey::SurveyRecord;
@@ -21,7 +21,7 @@ pub(super) fn all(measured: &Measured) -> Vec<String> {
     found.extend(price_of_accuracy(measured));
     found.extend(share_of_fit(measured));
     found.extend(of_fits(measured));
-    found.extend(of_slices(measured));
+    found.extend(of_cascades(measured));
     found.extend(of_kinds(measured));
     found.extend(of_formats(measured));
     found.extend(of_tests(measured));
@@ -161,15 +161,15 @@ fn of_fits_to(measured: &Measured, narrowed: bool) -> [String; 3] {
     ]
 }
 
-/// One slice to eight.
-fn of_slices(measured: &Measured) -> Option<String> {
-    let means = measured.means(SLICES_OF_SAME_SUM, true);
-    let of = |technique, slices| {
-        means.iter().find(|it| (it.contender.technique, it.contender.slices) == (technique, slices))
+/// One cascade to eight.
+fn of_cascades(measured: &Measured) -> Option<String> {
+    let means = measured.means(CASCADES_OF_SAME_SUM, true);
+    let of = |technique, cascades| {
+        means.iter().find(|it| (it.contender.technique, it.contender.cascades) == (technique, cascades))
     };
     let (cascades, best, both) = (of(Technique::Uniform, 4)?, of(Technique::Best, 1)?, of(Technique::Best, 4)?);
     Some(format!(
-        "With the same texels in all and fitted to what is seen, four uniform slices have {} wrong pixels than one uniform map, in {} \
+        "With the same texels in all and fitted to what is seen, four uniform cascades have {} wrong pixels than one uniform map, in {} \
          times the time; one map by the best matrix {}, in {}; four by the best matrix {}, in {}.",
         as_many(cascades.wrong_ratio),
         Figure(cascades.time_ratio),

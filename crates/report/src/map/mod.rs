@@ -1,4 +1,4 @@
-//! Wrong pixels and aliasing over time: by warp, size, slices, kind of map, depth format, depth test and filter.
+//! Wrong pixels and aliasing over time: by warp, size, cascades, kind of map, depth format, depth test and filter.
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -84,8 +84,8 @@ pub fn chapter(measured: &Measured) -> Result<Chapter> {
     parts.extend(tables::of_warps(measured).into_iter().map(Part::Table));
     parts.extend(plots::of_fits(measured).into_iter().map(Part::Plot));
     parts.push(Part::Table(tables::of_fits(measured)));
-    parts.push(Part::Plot(plots::of_slices(measured)));
-    parts.extend(tables::of_slices(measured).into_iter().map(Part::Table));
+    parts.push(Part::Plot(plots::of_cascades(measured)));
+    parts.extend(tables::of_cascades(measured).into_iter().map(Part::Table));
     parts.extend(plots::of_kinds(measured).into_iter().map(Part::Plot));
     parts.push(Part::Table(tables::of_kinds(measured)));
     parts.extend(tables::of_tests(measured).into_iter().map(Part::Table));

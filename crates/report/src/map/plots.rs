@@ -3,13 +3,13 @@
 use render_check::maps::Technique;
 
 use super::Measured;
-use super::cases::{ALL_WARPS, KINDS, PLOTTED, SLICES_OF_SAME_SUM};
+use super::cases::{ALL_WARPS, CASCADES_OF_SAME_SUM, KINDS, PLOTTED};
 use super::summary::Mean;
 use super::tables::fitted_to;
 use crate::chapter::{Axis, Plot, Point, Series};
 use crate::statistics::geometric_mean;
 
-/// What slices are plotted beside the single maps.
+/// What cascades are plotted beside the single maps.
 const PLOTTED_SLICES: [(Technique, usize); 2] = [(Technique::Uniform, 4), (Technique::Best, 4)];
 
 /// Wrong pixels over time, of maps that are fitted to what is seen or not.
@@ -22,7 +22,7 @@ pub(super) fn of_warps(measured: &Measured, narrowed: bool) -> Plot {
         title: format!("What fewer wrong pixels cost: maps fitted to {fitted_to}"),
         caption: format!(
             "Each line is one way to spread texels; along it maps grow, from left to right, by the sizes that are written at \
-             the uniform map. × 4 is four slices of the view, of which each has a map of so many texels. Down is better, left \
+             the uniform map. × 4 is four cascades of the view, of which each has a map of so many texels. Down is better, left \
              is cheaper, and 1 on both axes is the uniform map of {0}². Means over scenes and lights.",
             measured.middle_size
         ),
@@ -31,16 +31,16 @@ pub(super) fn of_warps(measured: &Measured, narrowed: bool) -> Plot {
         series: single
             .into_iter()
             .chain(PLOTTED_SLICES)
-            .filter_map(|(technique, slices)| of_sizes(measured, narrowed, technique, slices))
+            .filter_map(|(technique, cascades)| of_sizes(measured, narrowed, technique, cascades))
             .collect(),
         front: true,
     }
 }
 
 /// One way to spread texels in all sizes, those of the uniform map written beside it; nothing where it was not drawn.
-fn of_sizes(measured: &Measured, narrowed: bool, technique: Technique, slices: usize) -> Option<Series> {
-    let own = measured.sizes(narrowed, technique, slices);
-    let is_labelled = (technique, slices) == (Technique::Uniform, 1);
+fn of_sizes(measured: &Measured, narrowed: bool, technique: Technique, cascades: usize) -> Option<Series> {
+    let own = measured.sizes(narrowed, technique, cascades);
+    let is_labelled = (technique, cascades) == (Technique::Uniform, 1);
     Some(Series {
         name: own.first()?.contender.to_string(),
         points: own.iter().map(|it| point(it, is_labelled.then(|| format!("{}²", it.contender.size)))).collect(),
@@ -84,20 +84,20 @@ pub(super) fn of_fits(measured: &Measured) -> Vec<Plot> {
     [narrowed, (false, "map-fits-whole", "from the near plane on")].map(plot).to_vec()
 }
 
-/// One slice to eight, with as many texels in all.
-pub(super) fn of_slices(measured: &Measured) -> Plot {
-    let means = measured.means(SLICES_OF_SAME_SUM, true);
+/// One cascade to eight, with as many texels in all.
+pub(super) fn of_cascades(measured: &Measured) -> Plot {
+    let means = measured.means(CASCADES_OF_SAME_SUM, true);
     let series = |technique| {
         let own = means.iter().filter(|it| it.contender.technique == technique);
-        let label = |it: &Mean| Some(it.contender.slices.to_string());
+        let label = |it: &Mean| Some(it.contender.cascades.to_string());
         Series { name: technique.to_string(), points: own.map(|it| point(it, label(it))).collect(), joined: true }
     };
     Plot {
-        name: "map-slices".to_owned(),
-        title: "What slices give: one to eight, with the same texels in all".to_owned(),
+        name: "map-cascades".to_owned(),
+        title: "What cascades give: one to eight, with the same texels in all".to_owned(),
         caption: format!(
-            "{}² texels, in so many slices as is written beside each point; maps fitted to what is seen. The uniform map of one \
-             slice is 1 on both axes.",
+            "{}² texels, in so many cascades as is written beside each point; maps fitted to what is seen. The uniform map of one \
+             cascade is 1 on both axes.",
             2 * measured.middle_size
         ),
         x: Axis::logarithmic("time of a frame's shadows (uniform map = 1)"),

@@ -14,8 +14,8 @@ use shadowfit::DepthFormat;
 pub struct Contender {
     /// How texels are spread.
     pub technique: Technique,
-    /// How many slices the view is cut into; one where it is not.
-    pub slices: usize,
+    /// How many cascades the view is cut into; one where it is not.
+    pub cascades: usize,
     /// Texels along each side of each map.
     pub size: u32,
     /// The depth buffer's format.
@@ -34,7 +34,7 @@ impl From<&Options> for Contender {
     fn from(options: &Options) -> Self {
         Self {
             technique: options.technique,
-            slices: options.slicing.map_or(1, |slicing| slicing.count),
+            cascades: options.cascading.map_or(1, |cascading| cascading.count),
             size: options.map_size,
             format: format_name(options.format),
             clip: options.clip,
@@ -144,10 +144,10 @@ pub struct Refused {
     pub why: String,
 }
 
-/// How texels are spread, and over how many slices.
+/// How texels are spread, and over how many cascades.
 impl fmt::Display for Contender {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { technique, slices, .. } = self;
-        if *slices == 1 { write!(f, "{technique}") } else { write!(f, "{technique} × {slices}") }
+        let Self { technique, cascades, .. } = self;
+        if *cascades == 1 { write!(f, "{technique}") } else { write!(f, "{technique} × {cascades}") }
     }
 }

@@ -79,7 +79,7 @@ impl Measured {
         contenders.into_iter().map(mean).collect()
     }
 
-    /// The warps' means: single maps of every warp and size, and slices. Ratios are to the uniform map of the middle size.
+    /// The warps' means: single maps of every warp and size, and cascades. Ratios are to the uniform map of the middle size.
     #[must_use]
     pub fn warps(&self, narrowed: bool) -> Vec<Mean> {
         self.means(WARPS, narrowed)
@@ -87,8 +87,8 @@ impl Measured {
 
     /// One of them.
     #[must_use]
-    pub fn warp(&self, narrowed: bool, technique: Technique, slices: usize, size: u32) -> Option<Mean> {
-        self.sizes(narrowed, technique, slices).into_iter().find(|it| it.contender.size == size)
+    pub fn warp(&self, narrowed: bool, technique: Technique, cascades: usize, size: u32) -> Option<Mean> {
+        self.sizes(narrowed, technique, cascades).into_iter().find(|it| it.contender.size == size)
     }
 
     /// The power of time that wrong pixels go with along the front of all maps that are fitted to what is seen.
@@ -98,11 +98,11 @@ impl Measured {
         exponent(&front(&points).into_iter().map(|index| points[index]).collect::<Vec<_>>())
     }
 
-    /// Single maps or slices by a warp, in the order of their sizes.
+    /// Single maps or cascades by a warp, in the order of their sizes.
     #[must_use]
-    pub fn sizes(&self, narrowed: bool, technique: Technique, slices: usize) -> Vec<Mean> {
+    pub fn sizes(&self, narrowed: bool, technique: Technique, cascades: usize) -> Vec<Mean> {
         let mut means = self.warps(narrowed);
-        means.retain(|it| (it.contender.technique, it.contender.slices) == (technique, slices));
+        means.retain(|it| (it.contender.technique, it.contender.cascades) == (technique, cascades));
         means.sort_by_key(|it| it.contender.size);
         means
     }

@@ -4,7 +4,7 @@ use render_check::maps::ClipConvention;
 use render_check::trace::Faces;
 
 use super::Measured;
-use super::cases::{FILTERS, FORMATS, KINDS, SLICES_OF_SAME_SIZE, SLICES_OF_SAME_SUM, TESTS, WARPS};
+use super::cases::{CASCADES_OF_SAME_SIZE, CASCADES_OF_SAME_SUM, FILTERS, FORMATS, KINDS, TESTS, WARPS};
 use super::record::{Contender, Record, Refused};
 use super::summary::Mean;
 use super::survey::SurveyRecord;
@@ -68,12 +68,12 @@ fn name_and_size(contender: &Contender) -> Vec<String> {
     vec![contender.to_string(), format!("{}²", contender.size)]
 }
 
-/// All warps at one size, and all sizes and slices, narrowed and not.
+/// All warps at one size, and all sizes and cascades, narrowed and not.
 pub(super) fn of_warps(measured: &Measured) -> Vec<Table> {
     let table = |narrowed: bool| {
         let (fitted_to, shots) = (fitted_to(narrowed), shots(measured, WARPS));
         let caption = format!(
-            "Warps, sizes and slices, fitted to {fitted_to}. Means over {shots}. Sizes are those of each map."
+            "Warps, sizes and cascades, fitted to {fitted_to}. Means over {shots}. Sizes are those of each map."
         );
         of_means(caption, &["map", "size"], &measured.warps(narrowed), name_and_size)
     };
@@ -125,16 +125,18 @@ pub(super) fn of_fits(measured: &Measured) -> Table {
     }
 }
 
-/// Slices with as many texels in all, and each.
-pub(super) fn of_slices(measured: &Measured) -> Vec<Table> {
+/// Cascades with as many texels in all, and each.
+pub(super) fn of_cascades(measured: &Measured) -> Vec<Table> {
     let table = |comparison: &str, texels: &str, narrowed: bool| {
         let (fitted_to, shots) = (fitted_to(narrowed), shots(measured, comparison));
-        let caption =
-            format!("One slice to eight with as many texels {texels}, fitted to {fitted_to}. Means over {shots}.");
+        let caption = format!(
+            "One cascade to eight with as many texels {texels}, fitted to {fitted_to}. Means over {shots}."
+        );
         of_means(caption, &["maps", "size of each"], &measured.means(comparison, narrowed), name_and_size)
     };
-    let of =
-        |narrowed| [table(SLICES_OF_SAME_SUM, "in all", narrowed), table(SLICES_OF_SAME_SIZE, "each", narrowed)];
+    let of = |narrowed| {
+        [table(CASCADES_OF_SAME_SUM, "in all", narrowed), table(CASCADES_OF_SAME_SIZE, "each", narrowed)]
+    };
     [true, false].map(of).concat()
 }
 

@@ -36,7 +36,7 @@ fn sizes() -> Plot {
         "light-space",
         "trapezoidal",
         "best, good effort",
-        "four slices, uniform, split in halves",
+        "four cascades, uniform, split in halves",
     ];
     let sizes = [256.0, 512.0, 1024.0, 2048.0, 4096.0_f64];
     let mut series: Vec<Series> = ways
@@ -93,7 +93,7 @@ fn growth() -> Plot {
 fn many() -> Plot {
     let series = (0..24_i32).map(|index| {
         let [x, y] = [index % 6, index / 6].map(|step| 1.0 + 0.1 * f64::from(step));
-        let point = Point { x, y, label: Some(format!("{index} slices")) };
+        let point = Point { x, y, label: Some(format!("{index} cascades")) };
         Series { name: format!("the {index}th of many ways to fit"), points: vec![point], joined: false }
     });
     plot([Axis::linear("times, of the fastest"), Axis::logarithmic("ratio of areas")], series.collect())

@@ -202,7 +202,7 @@ pub fn take_any_bits(bytes: &[u8]) {
     #[cfg(feature = "alloc")]
     planned(&mut bits, &view, &light, &settings);
     if let Ok(scene) = Scene::from_box(bits.triple(), bits.triple()) {
-        sliced(&mut bits, &view, &light, &scene, &settings);
+        cascaded(&mut bits, &view, &light, &scene, &settings);
     }
     through_wide_doors(&mut bits, &view, &light, &settings);
 }
@@ -241,7 +241,7 @@ fn through_wide_doors(bits: &mut Bits<'_>, view: &View, light: &Light, settings:
 
 /// Asserts that a view is cut at any bytes, or refused with the name of an argument.
 pub fn cut_at_any_bits(bytes: &[u8], view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) {
-    sliced(&mut Bits(bytes), view, light, scene, settings);
+    cascaded(&mut Bits(bytes), view, light, scene, settings);
 }
 
 /// Asserts that any bytes through the wide doors give results or an error.
@@ -347,24 +347,27 @@ fn asked_paraboloid(bits: &mut Bits<'_>, map: &Paraboloid) {
     }
 }
 
-/// Cuts a view anywhere, and asks its slices about any depth.
-fn sliced(bits: &mut Bits<'_>, view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) {
+/// Cuts a view anywhere, and asks its cascades about any depth.
+fn cascaded(bits: &mut Bits<'_>, view: &View, light: &Light, scene: &Scene<'_>, settings: &Settings) {
     let split =
         [SplitScheme::Uniform, SplitScheme::Logarithmic, SplitScheme::Practical(bits.number())][bits.below(3)];
     let (count, depths) = (bits.below(10), bits.list(9, Bits::number));
     let cuts =
         [CascadeSplits::Visible { count, split }, CascadeSplits::View { count, split }, CascadeSplits::At(&depths)]
             [bits.below(3)];
-    let slices = match Cascades::new(view, light, scene, cuts, bits.number()) {
-        Ok(slices) => slices,
+    let cascades = match Cascades::new(view, light, scene, cuts, bits.number()) {
+        Ok(cascades) => cascades,
         Err(error) => {
             assert!(["count", "overlap", "split", "view", "cuts"].contains(&error.field), "{error}");
             return;
         }
     };
     let depth = bits.number();
-    assert!(slices.index_at(depth) < slices.len() && (0.0..=1.0).contains(&slices.blend_at(depth)), "{depth}");
-    let maps = slices.fit(settings);
+    assert!(
+        cascades.index_at(depth) < cascades.len() && (0.0..=1.0).contains(&cascades.blend_at(depth)),
+        "{depth}"
+    );
+    let maps = cascades.fit(settings);
     let report = maps.report();
     assert!(!report.aliasing.is_nan() && !report.texel.is_nan(), "{report:?}");
     for layout in [CascadeLayout::Array, CascadeLayout::Atlas] {

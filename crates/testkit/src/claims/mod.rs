@@ -6,12 +6,13 @@
 //! - `rays`, `scaling`: where a map puts things in f64, and what powers of two do to it.
 //! - `single_precision`: what f32 makes of a map.
 //! - `shared`: one map for several views.
-//! - `paraboloid`, `slices`, `virtual_samples`, `town` and `planner`: the maps, tests and plans of those names.
+//! - `paraboloid`, `cascades`, `virtual_samples`, `town` and `planner`: the maps, tests and plans of those names.
 //! - `targets`: all claims of a fuzz target, from its bytes.
 
 #![allow(clippy::disallowed_methods, reason = "angles and powers spread the cases, they are no part of a fit")]
 
 pub mod anything;
+pub mod cascades;
 pub mod constructors;
 pub mod paraboloid;
 #[cfg(feature = "alloc")]
@@ -21,7 +22,6 @@ pub mod results;
 pub mod scaling;
 pub mod shared;
 pub mod single_precision;
-pub mod slices;
 pub mod targets;
 #[cfg(feature = "alloc")]
 pub mod town;

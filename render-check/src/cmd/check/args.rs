@@ -32,7 +32,7 @@ Written to --out, per light and map:
   N-KIND-MAP-faults.png    false shadow red, false light blue, edges amber, missing casters magenta
   N-KIND-MAP-map.png       the shadow map; cascades from left to right, nearest first; cube faces likewise, +x first
   N-KIND-MAP-aliasing.png  aliasing
-  N-KIND-MAP-slices.png    with --slices: the truth, and the image tinted by cascade
+  N-KIND-MAP-cascades.png    with --cascades: the truth, and the image tinted by cascade
   N-KIND-close-up.png      with --close-up: the same square of the truth and of each image, side by side";
 
 /// Options of the check.

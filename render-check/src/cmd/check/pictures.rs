@@ -57,9 +57,9 @@ impl<'a> Pictures<'a> {
         let of_maps = run.fitted.maps.iter().flatten().zip(&run.depths);
         let stored: Vec<_> = of_maps.map(|(fitted, depths)| stored_map(&fitted.map, depths)).collect();
         self.save(&format!("{name}-map"), &side_by_side(&stored))?;
-        if options.slicing.is_some() {
+        if options.cascading.is_some() {
             let tinted = tinted(&image, &self.light.truth, &run.fitted.split);
-            self.save(&format!("{name}-slices"), &side_by_side(&[self.truth.clone(), tinted]))?;
+            self.save(&format!("{name}-cascades"), &side_by_side(&[self.truth.clone(), tinted]))?;
         }
         self.save(&format!("{name}-aliasing"), &aliasing_map(&self.light.truth, |point| run.aliasing(point)))
     }

@@ -7,7 +7,7 @@ use shadowfit::{DepthFormat, Origin, View};
 
 use super::shot::{EXTREMES, MAP_SIZE, Shot, Stand, chess_board, lit_chess_board};
 use crate::gpu::{Filter, Points};
-use crate::maps::{ClipConvention, Slicing, SplitArg, Technique};
+use crate::maps::{Cascading, ClipConvention, SplitArg, Technique};
 use crate::run::Options;
 use crate::scene::LightSpec;
 use crate::trace::Faces;
@@ -89,7 +89,7 @@ pub(super) fn stable() -> Result<Vec<Shot>> {
 }
 
 /// Two to eight cascades with every split scheme.
-pub(super) fn slices() -> Result<Vec<Shot>> {
+pub(super) fn cascades() -> Result<Vec<Shot>> {
     let mut options = Vec::new();
     for technique in [Technique::Uniform, Technique::Psm, Technique::Best, Technique::Stable] {
         for (count, split) in [
@@ -98,8 +98,8 @@ pub(super) fn slices() -> Result<Vec<Shot>> {
             (5, shadowfit::cascades::SplitScheme::Logarithmic),
             (8, shadowfit::cascades::SplitScheme::Logarithmic),
         ] {
-            let slicing = Some(Slicing { count, split: SplitArg(split) });
-            options.push(Options { slicing, ..Options::new(technique, MAP_SIZE / 2) });
+            let cascading = Some(Cascading { count, split: SplitArg(split) });
+            options.push(Options { cascading, ..Options::new(technique, MAP_SIZE / 2) });
         }
     }
     let wide = Filter::Pcf(5);

@@ -3,8 +3,8 @@
 use anyhow::Result;
 
 use super::cases::{
-    clip_spaces, far_planes, filters, flat, lights_inside, open_sheets, paraboloids, points, scales, sizes, slices,
-    solids, stable, street, virtual_samples,
+    cascades, clip_spaces, far_planes, filters, flat, lights_inside, open_sheets, paraboloids, points, scales,
+    sizes, solids, stable, street, virtual_samples,
 };
 use super::faults::{far_off, faults, from_the_origin};
 use super::lights::{lamps_through_the_plane, suns_across, through_the_back};
@@ -38,7 +38,7 @@ pub const GROUPS: [Group; 24] = [
     Group { name: "paraboloids", shots: paraboloids },
     Group { name: "flat", shots: flat },
     Group { name: "stable", shots: stable },
-    Group { name: "slices", shots: slices },
+    Group { name: "cascades", shots: cascades },
     Group { name: "far-planes", shots: far_planes },
     Group { name: "scales", shots: scales },
     Group { name: "clip-spaces", shots: || Ok(vec![lit_chess_board()?.with_options(clip_spaces())]) },

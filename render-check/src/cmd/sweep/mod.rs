@@ -162,9 +162,9 @@ impl Summary {
 
 impl fmt::Display for SweepRun {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let RunReport { light, class, technique, map_size, slicing, filter, .. } = &self.run;
+        let RunReport { light, class, technique, map_size, cascading, filter, .. } = &self.run;
         write!(f, "{} ({light}, {class}), {technique} {map_size}, {filter}", self.case)?;
-        slicing.map_or(Ok(()), |slicing| write!(f, ", {} slices, {}", slicing.count, slicing.split))
+        cascading.map_or(Ok(()), |cascading| write!(f, ", {} cascades, {}", cascading.count, cascading.split))
     }
 }
 

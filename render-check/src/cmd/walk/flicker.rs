@@ -3,7 +3,7 @@
 use comfy_table::Table;
 use serde::Serialize;
 
-use crate::maps::{Slicing, Technique};
+use crate::maps::{Cascading, Technique};
 use crate::output::table::{self, percent};
 use crate::verdict::share;
 
@@ -17,7 +17,7 @@ pub struct Flicker {
     /// Texels along each side.
     pub map_size: u32,
     /// How the view is split into cascades; `None` where it is not.
-    pub slicing: Option<Slicing>,
+    pub cascading: Option<Cascading>,
     /// Technique and sizes in words.
     #[serde(skip)]
     pub name: String,
@@ -82,7 +82,7 @@ pub(super) fn summary(flickers: &[Flicker]) -> Table {
             flicker.light.clone(),
             format!("{}{}", flicker.name, if flicker.warm { ", warm" } else { "" }),
             percent(flicker.mean()),
-            if flicker.slicing.is_some() { percent(flicker.mean_over_cuts()) } else { "-".into() },
+            if flicker.cascading.is_some() { percent(flicker.mean_over_cuts()) } else { "-".into() },
             percent(flicker.worst()),
             flicker.steps.iter().filter(|step| step.is_none()).count().to_string(),
             format!("{:.1} µs", flicker.fit_us),

@@ -142,7 +142,7 @@ impl Walker {
             light: self.light.to_string(),
             technique: self.way.options.technique,
             map_size: self.way.options.map_size,
-            slicing: self.way.options.slicing,
+            cascading: self.way.options.cascading,
             name: self.way.options.name(),
             warm: self.way.warm,
             fit_us: self.times.get(self.times.len() / 2).map_or(0.0, |time| time.as_secs_f64() * 1e6),

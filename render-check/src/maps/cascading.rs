@@ -11,7 +11,7 @@ use shadowfit::{
 
 /// How a view is split into cascades, one map each.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Slicing {
+pub struct Cascading {
     /// The number of cascades, 1 to [`Cascades::MAX`].
     pub count: usize,
     /// The split scheme.
@@ -62,7 +62,7 @@ impl serde::Serialize for SplitArg {
     }
 }
 
-impl Slicing {
+impl Cascading {
     /// The splits of the receivers' depth range; for stabilised maps, which must not depend on visible surfaces, of
     /// the range between the near and far planes.
     #[must_use]
@@ -77,14 +77,14 @@ impl Slicing {
 /// # Errors
 ///
 /// For stabilised cascades of a view with an infinite far plane.
-pub fn slices(
+pub fn cascades(
     view: &View,
     light: &Light,
     scene: &Scene<'static>,
     cuts: CascadeSplits<'static>,
 ) -> Result<Cascades<'static>> {
     Cascades::new(view, light, scene, cuts, 0.0)
-        .context("the view cannot be sliced; stable slices need a --far that is not inf")
+        .context("the view cannot be cut into cascades; stable cascades need a --far that is not inf")
 }
 
 #[cfg(test)]

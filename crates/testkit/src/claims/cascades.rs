@@ -1,4 +1,4 @@
-//! What slices of a view promise: one slice is a plain fit, no depth is lost, and each slice's map holds what is visible
+//! What cascades of a view promise: one cascade is a plain fit, no depth is lost, and each cascade's map holds what is visible
 //! in it and what casts on that.
 
 use proptest::prelude::*;
@@ -51,7 +51,7 @@ impl Cutting {
         Cascades::new(&together.view, &together.light, &scene, cuts, overlap)
     }
 
-    fn slices<'a>(&self, together: &'a Together) -> Cascades<'a> {
+    fn cascades<'a>(&self, together: &'a Together) -> Cascades<'a> {
         self.cut(together).expect("legal cuts")
     }
 }
@@ -73,59 +73,64 @@ fn visible_points(together: &Together, focus: &Focus<'_>, seed: u64) -> Vec<DVec
     points
 }
 
-/// Asserts that one slice is the view itself, to the last bit.
+/// Asserts that one cascade is the view itself, to the last bit.
 pub fn one_is_a_plain_fit(case: &Case, cutting: &Cutting, settings: &Settings) {
     let together = Together::of(case);
     let scene = together.store.scene().expect("the scene is accepted");
     let plain = fit(&together.view, &together.light, &scene, settings);
     let one = Cutting { count: 1, ..*cutting };
     let at_none = Cascades::new(&together.view, &together.light, &scene, CascadeSplits::At(&[]), one.overlap);
-    for slices in [one.slices(&together), at_none.expect("no cuts")] {
-        assert_eq!(slices.len(), 1);
-        assert_eq!(slices[0].focus.view(), &together.view);
-        assert_eq!(slices.fit(settings).outcomes(), std::slice::from_ref(&plain));
+    for cascades in [one.cascades(&together), at_none.expect("no cuts")] {
+        assert_eq!(cascades.len(), 1);
+        assert_eq!(cascades[0].focus.view(), &together.view);
+        assert_eq!(cascades.fit(settings).outcomes(), std::slice::from_ref(&plain));
     }
 }
 
-/// Asserts that the slices follow on one another, cut at numbers of f32, and that every depth is in the one around it, for a
+/// Asserts that the cascades follow on one another, cut at numbers of f32, and that every depth is in the one around it, for a
 /// shader as well.
 pub fn every_depth_is_in_one(case: &Case, cutting: &Cutting, settings: &Settings, seed: u64) {
     let together = Together::of(case);
-    let slices = cutting.slices(&together);
+    let cascades = cutting.cascades(&together);
     let view = &together.view;
-    assert!((1..=cutting.count).contains(&slices.len()));
-    assert_eq!((slices[0].near, slices[slices.len() - 1].far), (view.near(), view.far()));
-    for pair in slices.as_slice().windows(2) {
+    assert!((1..=cutting.count).contains(&cascades.len()));
+    assert_eq!((cascades[0].near, cascades[cascades.len() - 1].far), (view.near(), view.far()));
+    for pair in cascades.as_slice().windows(2) {
         assert_eq!(pair[0].far, pair[1].near);
         assert_eq!(pair[0].far, f64::from(pair[0].far as f32));
         assert!(pair[0].near <= pair[0].blend && pair[0].blend <= pair[0].far);
     }
-    let uniform = slices.fit(settings).uniform(CascadeLayout::Array, |_| None);
+    let uniform = cascades.fit(settings).uniform(CascadeLayout::Array, |_| None);
     let mut numbers = Numbers(seed);
     let last = view.far().min(2.0 * view.near().abs() + 1e4);
     let mut depths: Vec<f64> = (0..32).map(|_| view.near() + (last - view.near()) * numbers.part()).collect();
-    depths.extend(slices.iter().flat_map(|slice| [slice.near, slice.far.next_down(), slice.far, slice.blend]));
+    depths.extend(
+        cascades.iter().flat_map(|cascade| [cascade.near, cascade.far.next_down(), cascade.far, cascade.blend]),
+    );
     for depth in depths {
-        let index = slices.index_at(depth);
-        let slice = &slices[index];
-        assert!(slice.near <= depth && (depth < slice.far || index == slices.len() - 1), "{depth} is in {index}");
-        let blend = slices.blend_at(depth);
-        assert!((0.0..=1.0).contains(&blend) && (blend == 0.0 || depth > slice.blend), "{blend} at {depth}");
-        assert!(blend == 0.0 || index + 1 < slices.len());
+        let index = cascades.index_at(depth);
+        let cascade = &cascades[index];
+        assert!(
+            cascade.near <= depth && (depth < cascade.far || index == cascades.len() - 1),
+            "{depth} is in {index}"
+        );
+        let blend = cascades.blend_at(depth);
+        assert!((0.0..=1.0).contains(&blend) && (blend == 0.0 || depth > cascade.blend), "{blend} at {depth}");
+        assert!(blend == 0.0 || index + 1 < cascades.len());
         // As `shadowfit_cascade_at` counts.
         let single = depth as f32;
         let of_shader = uniform.far.iter().filter(|far| single >= **far).count().min(Cascades::MAX - 1);
         // Which is for depths that are finite.
-        assert!(single >= f32::MAX || of_shader == slices.index_at(f64::from(single)), "{depth}: {of_shader}");
+        assert!(single >= f32::MAX || of_shader == cascades.index_at(f64::from(single)), "{depth}: {of_shader}");
     }
 }
 
-/// Asserts that a visible point is in the map of its slice, also where f32 takes it for one of the next slice, and in the
-/// next slice's map where that is blended in.
+/// Asserts that a visible point is in the map of its cascade, also where f32 takes it for one of the next cascade, and in the
+/// next cascade's map where that is blended in.
 pub fn maps_hold_what_is_visible(case: &Case, cutting: &Cutting, settings: &Settings, seed: u64) {
     let together = Together::of(case);
-    let slices = cutting.slices(&together);
-    let maps = slices.fit(settings);
+    let cascades = cutting.cascades(&together);
+    let maps = cascades.fit(settings);
     let view = &together.view;
     let border = f64::from(settings.border()) / sides(settings);
     let inner = (1.0 - 2.0 * border) * (1.0 + f64::EPSILON);
@@ -137,11 +142,11 @@ pub fn maps_hold_what_is_visible(case: &Case, cutting: &Cutting, settings: &Sett
         // Six roundings of a sum of three products of coordinates relative to the eye.
         let off = 6.0 / 16_777_216.0 * (point - view.eye()).length();
         for depth in [depth, depth - off, depth + off] {
-            let index = slices.index_at(depth);
-            let next = (slices.blend_at(depth) > 0.0).then_some(index + 1);
+            let index = cascades.index_at(depth);
+            let next = (cascades.blend_at(depth) > 0.0).then_some(index + 1);
             for index in [Some(index), next].into_iter().flatten() {
                 let outcome = &maps.outcomes()[index];
-                assert_ne!(*outcome, Outcome::Empty(Empty::NoReceivers), "{point} is in slice {index}");
+                assert_ne!(*outcome, Outcome::Empty(Empty::NoReceivers), "{point} is in cascade {index}");
                 let Some(map) = outcome.map() else { continue };
                 let (across, of_w) = rounding(map, point);
                 // Beside a lamp f32 may not tell a place to a 64th of the window.
@@ -150,22 +155,27 @@ pub fn maps_hold_what_is_visible(case: &Case, cutting: &Cutting, settings: &Sett
                 }
                 let position = in_f32(map, point);
                 let shown = position.truncate() / position.w;
-                assert!(is_in_window(position, inner), "{point} of slice {index} is at {shown}, w {}", position.w);
+                assert!(
+                    is_in_window(position, inner),
+                    "{point} of cascade {index} is at {shown}, w {}",
+                    position.w
+                );
             }
         }
     }
 }
 
-/// Asserts that what can cast on a visible point is in the body of its slice: the tight body of the whole view is covered by
-/// those of the slices.
+/// Asserts that what can cast on a visible point is in the body of its cascade: the tight body of the whole view is covered by
+/// those of the cascades.
 pub fn bodies_hold_what_casts(case: &Case, cutting: &Cutting, seed: u64) {
     let together = Together::of(case);
-    let slices = cutting.slices(&together);
-    let bodies: Vec<_> = slices.iter().map(|slice| slice.focus.caster_volume(FocusForm::ReceiverHull)).collect();
+    let cascades = cutting.cascades(&together);
+    let bodies: Vec<_> =
+        cascades.iter().map(|cascade| cascade.focus.caster_volume(FocusForm::ReceiverHull)).collect();
     let cullers: Vec<_> = bodies.iter().map(|body| body.culler()).collect();
     let whole = together.focus().caster_volume(FocusForm::ReceiverHull);
     for point in visible_points(&together, &together.focus(), seed) {
-        let index = slices.index_at(together.view.depth(point));
+        let index = cascades.index_at(together.view.depth(point));
         for caster in together.casters(&whole, &[point], seed) {
             // Among lists, what casts is in one of the casters.
             if let SceneStore::Lists(casters, _) = &together.store {
@@ -174,18 +184,18 @@ pub fn bodies_hold_what_casts(case: &Case, cutting: &Cutting, seed: u64) {
                 let Some(one) = casters.iter().find(holds) else { continue };
                 assert!(
                     bodies[index].intersects_aabb(one.min, one.max),
-                    "{one:?} casts on {point} in slice {index}"
+                    "{one:?} casts on {point} in cascade {index}"
                 );
                 let mut meets = [false];
                 cullers[index].boxes(&[*one], &mut meets);
-                assert_eq!(meets, [true], "{one:?} casts on {point} in slice {index}");
+                assert_eq!(meets, [true], "{one:?} casts on {point} in cascade {index}");
             } else {
-                let (body, visible) = (&bodies[index], slices[index].focus.receiver_volume());
+                let (body, visible) = (&bodies[index], cascades[index].focus.receiver_volume());
                 let slack = slack(&visible, caster.abs().max(point.abs()));
                 let least = body.planes().map(|plane| plane.at(caster)).fold(f64::INFINITY, f64::min);
                 assert!(
                     !body.is_empty() && least >= -slack,
-                    "{caster} casts on {point} in slice {index}: {least:e}"
+                    "{caster} casts on {point} in cascade {index}: {least:e}"
                 );
             }
         }
@@ -208,7 +218,7 @@ pub fn orthographic_cuts_are_uniform(case: &Case, cutting: &Cutting) {
     if together.view.lens() != Lens::Orthographic {
         return;
     }
-    let uniform = Cutting { split: SplitScheme::Uniform, ..*cutting }.slices(&together);
-    let ours = cutting.slices(&together);
-    assert!(ours.iter().map(|slice| slice.far).eq(uniform.iter().map(|slice| slice.far)));
+    let uniform = Cutting { split: SplitScheme::Uniform, ..*cutting }.cascades(&together);
+    let ours = cutting.cascades(&together);
+    assert!(ours.iter().map(|cascade| cascade.far).eq(uniform.iter().map(|cascade| cascade.far)));
 }

@@ -22,7 +22,7 @@ pub fn tinted(rendered: &RgbImage, truth: &TruthImage, split: &Split) -> RgbImag
         }
     }
     let numbers: Vec<String> = (1..=split.parts()).map(|number| format!("{number} ")).collect();
-    let mut parts = vec![("slice: ", Rgb(TEXT.map(encode)))];
+    let mut parts = vec![("cascade: ", Rgb(TEXT.map(encode)))];
     parts.extend(numbers.iter().zip(COLOURS).map(|(number, colour)| (number.as_str(), Rgb(colour.map(encode)))));
     text::caption(&mut image, &parts);
     image
@@ -47,7 +47,7 @@ mod tests {
     use shadowfit::Scene;
 
     use super::*;
-    use crate::maps::{Slicing, SplitArg, slices};
+    use crate::maps::{Cascading, SplitArg, cascades};
     use crate::trace::Tracer;
     use crate::verdict::fake::{self, LAMP_NEAR, SUN};
 
@@ -60,8 +60,8 @@ mod tests {
         let (min, max) = mesh.bounds();
         let scene = Scene::from_box(min, max).expect("sound");
         let light = SUN.to_light(LAMP_NEAR).expect("sound");
-        let cuts = Slicing { count: 3, split: SplitArg(shadowfit::cascades::SplitScheme::Uniform) }.cuts(false);
-        let split = Split::slices(cuts, slices(&fake::view(), &light, &scene, cuts).expect("a finite view"));
+        let cuts = Cascading { count: 3, split: SplitArg(shadowfit::cascades::SplitScheme::Uniform) }.cuts(false);
+        let split = Split::cascades(cuts, cascades(&fake::view(), &light, &scene, cuts).expect("a finite view"));
         let image = tinted(&grey, &truth, &split);
         let mut seen = [0; 3];
         // Above the caption.
