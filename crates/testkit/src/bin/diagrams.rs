@@ -7,9 +7,14 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
+use shadowfit::cascades::{CascadeSplits, Cascades, SplitScheme};
+use shadowfit::depth::TangentPlane;
 use shadowfit::focus::ConvexBody;
 use shadowfit::glam::{DMat4, DVec2, DVec3};
-use shadowfit::{Aabb, Focus, FocusForm, InputError, Light, Scene, Settings, ShadowMap, View, Warp};
+use shadowfit::omni::CubeFace;
+use shadowfit::{
+    Aabb, DepthFormat, Filter, Focus, FocusForm, InputError, Light, Outcome, Scene, Settings, ShadowMap, View, Warp,
+};
 
 /// Pixels for a metre.
 const SCALE: f64 = 17.0;
@@ -24,6 +29,12 @@ const VIEW: &str = "fill=\"none\" stroke=\"#1c4f8f\" stroke-width=\"1.6\"";
 
 const FOCUS: &str = "concepts-focus.svg";
 const WARP: &str = "concepts-warp.svg";
+const CASCADES: &str = "concepts-cascades.svg";
+const BIAS: &str = "concepts-bias.svg";
+const OMNI: &str = "concepts-omni.svg";
+
+/// Light and dark, in turn, for parts that lie side by side.
+const PARTS: [&str; 2] = ["fill=\"#4a90d9\" fill-opacity=\"0.3\"", "fill=\"#4a90d9\" fill-opacity=\"0.6\""];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = PathBuf::from(std::env::args().nth(1).ok_or("usage: diagrams FOLDER")?);
@@ -33,8 +44,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-fn diagrams() -> Result<[(&'static str, String); 2], InputError> {
-    Ok([(FOCUS, focus()?), (WARP, warp()?)])
+fn diagrams() -> Result<[(&'static str, String); 5], InputError> {
+    Ok([(FOCUS, focus()?), (WARP, warp()?), (CASCADES, cascades()?), (BIAS, bias()?), (OMNI, omni()?)])
 }
 
 fn view() -> Result<View, InputError> {
@@ -118,6 +129,167 @@ fn warp() -> Result<String, InputError> {
     Ok(svg.finish())
 }
 
+/// A view from above, cut into cascades, with the zones in which they are blended.
+fn cascades() -> Result<String, InputError> {
+    let (view, sun) = (view()?, Light::directional((-1.0, 1.0, 0.0))?);
+    let scene = Scene::from_box(SCENE[0], SCENE[1])?;
+    let splits = CascadeSplits::View { count: 3, split: SplitScheme::Practical(0.5) };
+    let cascades = Cascades::new(&view, &sun, &scene, splits, 0.2)?;
+    let mut svg =
+        Svg::new("A view from above, cut into three cascades; in the dark zones the next cascade is blended in");
+    for (index, cascade) in cascades.iter().enumerate() {
+        svg.polygon(&from_above(&view.narrowed(cascade.near, cascade.far)?), PARTS[index % 2]);
+        if cascade.blend < cascade.far {
+            let blended = from_above(&view.narrowed(cascade.blend, cascade.far)?);
+            svg.polygon(&blended, "fill=\"#1c4f8f\" fill-opacity=\"0.55\"");
+        }
+        let middle = view.eye() + view.forward() * (0.5 * (cascade.near + cascade.blend));
+        svg.text(above(middle) - DVec2::new(0.0, 0.3), &index.to_string(), "#1c4f8f");
+    }
+    svg.polygon(&from_above(&view), VIEW);
+    svg.dot(above(view.eye()), "#1c4f8f");
+    svg.text(above(view.eye()) - DVec2::new(1.6, 0.2), "eye", "#1c4f8f");
+    Ok(svg.finish())
+}
+
+/// A point from above, drawn together to fit into the picture.
+fn above(point: DVec3) -> DVec2 {
+    DVec2::new(point.x, 7.2 - 0.42 * point.z)
+}
+
+/// The outline of a view from above, at half of its height; empty where it has no end.
+fn from_above(view: &View) -> Vec<DVec2> {
+    let middle = |corners: &[DVec3; 8], edge: usize| above((corners[edge] + corners[edge + 2]) / 2.0);
+    view.corners().map_or_else(Vec::new, |corners| [0, 1, 5, 4].map(|edge| middle(&corners, edge)).to_vec())
+}
+
+/// What a map stores of a plane that the light meets at a slope, without a bias and with it.
+fn bias() -> Result<String, InputError> {
+    const TEXELS: u32 = 8;
+    let (view, sun) = (view()?, Light::directional((-0.9, 1.0, 0.0))?);
+    let scene = Scene::from_box(SCENE[0], SCENE[1])?;
+    let settings = Settings::new(32, 600)?.with_warp(Warp::Uniform);
+    let mut svg =
+        Svg::new("Depths that a map stores of a plane: without a bias they lie before parts of it, with it behind");
+    let ground = DVec3::new(24.0, 0.0, 0.0);
+    let Outcome::Map(map) = Focus::new(&view, &sun, &scene).fit(&settings) else { return Ok(svg.finish()) };
+    let Some(plane) = TangentPlane::new(&map, ground, DVec3::Y) else { return Ok(svg.finish()) };
+    let bias = map.bias(DepthFormat::Unorm24, Filter::Nearest.reach())?;
+    let size = f64::from(settings.map_size());
+    let slope = plane.slopes().y / size;
+    let first = (plane.place().y * size).floor() - 0.5 * f64::from(TEXELS);
+    let depth = |row: f64| plane.depth_at(DVec2::new(plane.place().x, row / size)) - plane.depth();
+    for (left, label, moved) in [
+        (1.0, "no bias: shadow acne", 0.0),
+        (23.4, "the derived bias: none", f64::from(bias.slope_scale) * slope.abs() + bias.most),
+    ] {
+        let at = |row: f64, depth: f64| DVec2::new(left + 2.2 * (row - first), 7.6 - 0.95 * depth / slope.abs());
+        let last = first + f64::from(TEXELS);
+        svg.line(at(first, depth(first)), at(last, depth(last)), "stroke=\"#777\" stroke-width=\"1.6\"");
+        for texel in 0..TEXELS {
+            let row = first + f64::from(texel);
+            let stored = depth(row + 0.5) + moved;
+            svg.line(at(row, stored), at(row + 1.0, stored), "stroke=\"#1c4f8f\" stroke-width=\"2.4\"");
+            let dark = [row, row + 1.0].map(|end| at(end, depth(end)));
+            // The half in which the plane is deeper than what is stored.
+            let middle = at(row + 0.5, depth(row + 0.5));
+            let deeper = if depth(row + 1.0) > depth(row) { dark[1] } else { dark[0] };
+            if (depth(row + 1.0) - depth(row)).abs() * 0.5 > moved {
+                svg.line(middle, deeper, "stroke=\"#c0392b\" stroke-width=\"5\" stroke-opacity=\"0.7\"");
+            }
+        }
+        svg.text(DVec2::new(left + 8.8, 0.4), label, "#333");
+    }
+    svg.text(DVec2::new(4.6, 13.4), "stored depths", "#1c4f8f");
+    svg.text(DVec2::new(4.6, 12.3), "the plane", "#777");
+    svg.text(DVec2::new(4.6, 11.2), "in shadow", "#c0392b");
+    svg.text(DVec2::new(21.0, 13.4), "light from above, depth grows downwards", "#a37b0c");
+    Ok(svg.finish())
+}
+
+/// A point light in a room from above: the faces of its cube that need a map, and the paraboloids that do.
+fn omni() -> Result<String, InputError> {
+    let view = View::perspective((-4.5, 1.6, 0.0), (1.0, 0.0, 0.62), (0.0, 1.0, 0.0), 0.5, 1.4, 0.3, 20.0)?;
+    let lamp = Light::point((0.0, 2.0, 0.0), 0.05, 12.0)?;
+    let scene = Scene::from_box((-6.0, 0.0, -5.0), (6.0, 3.0, 5.0))?;
+    let settings = Settings::new(256, 600)?;
+    let mut svg = Svg::new(
+        "A point light in a room from above: the cube faces with receivers on the left, the one paraboloid that holds them on the right",
+    );
+    let corners = [[-6.0, -5.0], [6.0, -5.0], [6.0, 5.0], [-6.0, 5.0]].map(DVec2::from);
+    let panel = |right: bool| {
+        move |place: DVec2| DVec2::new(if right { 32.0 } else { 10.5 }, 7.6) + 1.28 * DVec2::new(place.x, -place.y)
+    };
+    for right in [false, true] {
+        let to_picture = panel(right);
+        let parts: Vec<(Vec<DVec2>, bool)> = if right {
+            let half = |axis: DVec3| inside(&corners, |corner| corner.dot(DVec2::new(axis.x, axis.z)));
+            let maps = Focus::new(&view, &lamp, &scene).paraboloids(&settings);
+            maps.maps().iter().map(|map| (half(map.axis()), true)).collect()
+        } else {
+            [CubeFace::PositiveX, CubeFace::NegativeX, CubeFace::PositiveZ, CubeFace::NegativeZ]
+                .into_iter()
+                .map(|face| {
+                    let part = lamp.cube_face(face, 0.0)?;
+                    let has_map = Focus::new(&view, &part, &scene).fit(&settings).map().is_some();
+                    let axis = DVec2::new(face.axis().x, face.axis().z);
+                    let mut outline = vec![DVec2::ZERO];
+                    outline.extend([-1.0, 1.0].map(|side| 5.0 * (axis + side * axis.perp())));
+                    if axis.x != 0.0 {
+                        // The room is longer than wide.
+                        outline.splice(2..2, [-1.0, 1.0].map(|side| DVec2::new(6.0 * axis.x, side * 5.0 * axis.x)));
+                    }
+                    Ok((outline, has_map))
+                })
+                .collect::<Result<_, InputError>>()?
+        };
+        for (outline, has_map) in parts {
+            let outline: Vec<DVec2> = outline.into_iter().map(to_picture).collect();
+            let style = if has_map {
+                "fill=\"#d4a017\" fill-opacity=\"0.3\" stroke=\"#a37b0c\""
+            } else {
+                "fill=\"none\" stroke=\"#bbb\""
+            };
+            svg.polygon(&outline, style);
+        }
+        svg.polygon(&corners.map(to_picture), "fill=\"none\" stroke=\"#777\" stroke-width=\"1.6\"");
+        let receivers: Vec<DVec2> =
+            plan(&Focus::new(&view, &lamp, &scene).receiver_volume()).into_iter().map(to_picture).collect();
+        svg.polygon(&receivers, "fill=\"#4a90d9\" fill-opacity=\"0.45\" stroke=\"#1c4f8f\"");
+        let (light, eye) = (to_picture(DVec2::ZERO), to_picture(DVec2::new(view.eye().x, view.eye().z)));
+        svg.dot(light, "#a37b0c");
+        svg.text(light + DVec2::new(1.7, 0.5), "light", "#a37b0c");
+        svg.dot(eye, "#1c4f8f");
+        svg.text(eye + DVec2::new(0.0, 0.6), "eye", "#1c4f8f");
+    }
+    svg.text(DVec2::new(10.5, -0.6), "cube faces: those with receivers", "#333");
+    svg.text(DVec2::new(32.0, -0.6), "one paraboloid for all receivers", "#333");
+    Ok(svg.finish())
+}
+
+/// The outline of a body from above: the corners of the convex hull of its vertices, in order.
+fn plan(body: &ConvexBody) -> Vec<DVec2> {
+    let mut points: Vec<DVec2> = body.vertices().iter().map(|vertex| DVec2::new(vertex.x, vertex.z)).collect();
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    // Andrew's monotone chain, there and back.
+    let half = |points: &mut dyn Iterator<Item = DVec2>| {
+        let mut chain: Vec<DVec2> = Vec::new();
+        for point in points {
+            while let [.., a, b] = chain[..]
+                && (b - a).perp_dot(point - b) <= 1e-9
+            {
+                chain.pop();
+            }
+            chain.push(point);
+        }
+        chain.pop();
+        chain
+    };
+    let mut outline = half(&mut points.iter().copied());
+    outline.extend(half(&mut points.iter().rev().copied()));
+    outline
+}
+
 /// Where the middle of a row of texels meets the light's rays: at a height and on the ground.
 fn ray(map: &ShadowMap, row: f64) -> [DVec3; 2] {
     let world: DMat4 = map.texture_from_world().inverse();
@@ -133,13 +305,19 @@ fn outline(view: &View) -> Vec<DVec2> {
 
 /// The part of a convex polygon that is not below the ground.
 fn above_ground(corners: &[DVec2]) -> Vec<DVec2> {
+    inside(corners, |corner| corner.y)
+}
+
+/// The part of a convex polygon where a linear function is not negative.
+fn inside(corners: &[DVec2], value: impl Fn(DVec2) -> f64) -> Vec<DVec2> {
     let next = corners.iter().cycle().skip(1);
     corners
         .iter()
         .zip(next)
         .flat_map(|(&from, &to)| {
-            let crossing = ((from.y < 0.0) != (to.y < 0.0)).then(|| from.lerp(to, from.y / (from.y - to.y)));
-            (from.y >= 0.0).then_some(from).into_iter().chain(crossing)
+            let (at_from, at_to) = (value(from), value(to));
+            let crossing = ((at_from < 0.0) != (at_to < 0.0)).then(|| from.lerp(to, at_from / (at_from - at_to)));
+            (at_from >= 0.0).then_some(from).into_iter().chain(crossing)
         })
         .collect()
 }
@@ -169,7 +347,7 @@ impl Svg {
         let (width, height) = (WIDTH * SCALE, (HEIGHT + 2.0) * SCALE);
         Self(format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" role=\"img\" \
-             font-family=\"sans-serif\" font-size=\"14\">\n<title>{title}</title>\n<rect width=\"100%\" height=\"100%\" \
+             style=\"max-width: 100%\" font-family=\"sans-serif\" font-size=\"14\">\n<title>{title}</title>\n<rect width=\"100%\" height=\"100%\" \
              rx=\"6\" fill=\"#fff\"/>\n"
         ))
     }
@@ -194,6 +372,11 @@ impl Svg {
         self.polygon(&head, &format!("fill=\"{colour}\""));
         let [from, to] = [from, to].map(Self::place);
         self.element(format_args!("<path d=\"M{from} L{to}\" stroke=\"{colour}\" stroke-width=\"1.6\"/>"));
+    }
+
+    fn line(&mut self, from: DVec2, to: DVec2, style: &str) {
+        let [from, to] = [from, to].map(Self::place);
+        self.element(format_args!("<path d=\"M{from} L{to}\" {style}/>"));
     }
 
     fn dot(&mut self, at: DVec2, colour: &str) {
@@ -224,6 +407,9 @@ mod tests {
         let stored = [
             (FOCUS, include_str!("../../../../docs/images/concepts-focus.svg")),
             (WARP, include_str!("../../../../docs/images/concepts-warp.svg")),
+            (CASCADES, include_str!("../../../../docs/images/concepts-cascades.svg")),
+            (BIAS, include_str!("../../../../docs/images/concepts-bias.svg")),
+            (OMNI, include_str!("../../../../docs/images/concepts-omni.svg")),
         ];
         let drawn = diagrams().expect("the set-ups are valid");
         for ((name, stored), (_, drawn)) in stored.into_iter().zip(drawn) {
