@@ -58,6 +58,14 @@ pub struct MapPass {
     pub points: Points,
 }
 
+impl MapPass {
+    /// The same with a bias derived from a map, the receiver's part included.
+    #[must_use]
+    pub const fn with(self, bias: &shadowfit::depth::DepthBias) -> Self {
+        Self { bias: Bias::away(bias), receiver: bias.receiver, relative: bias.relative, ..self }
+    }
+}
+
 fn format_name<S: serde::Serializer>(format: &DepthFormat, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&format!("{format:?}").to_lowercase())
 }

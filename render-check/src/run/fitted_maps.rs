@@ -8,6 +8,7 @@ use serde::Serialize;
 use shadowfit::glam::DVec3;
 use shadowfit::{
     Empty, Focus, FocusForm, Light, Outcome, Settings, ShadowMap,
+    depth::DepthBias,
     focus::{ConvexBody, Plane},
     omni::{CubeFace, Paraboloids},
 };
@@ -26,11 +27,23 @@ pub struct FittedMap {
     pub map: Layout,
     /// How it is drawn.
     pub pass: MapPass,
+    /// The bias of the pass, where it is the one derived from the map.
+    pub bias: Option<DepthBias>,
     /// The objects drawn into it: those that intersect H.
     pub objects: Vec<usize>,
 }
 
 impl FittedMap {
+    /// A map that is drawn with these options.
+    ///
+    /// # Errors
+    ///
+    /// When the filter's reach is invalid.
+    pub fn of(map: Layout, options: &Options, objects: Vec<usize>) -> Result<Self> {
+        let (pass, bias) = (options.pass(&map)?, options.derived_bias(&map)?);
+        Ok(Self { map, pass, bias, objects })
+    }
+
     /// Fits a frustum, warm-started from the previous frame's map if there is one, and culls the casters against H;
     /// or returns the reason for no map.
     fn new(
@@ -44,8 +57,7 @@ impl FittedMap {
             Err(none) => return Ok(Err(none)),
         };
         let objects = casters(stage, &focus.caster_volume(FocusForm::ReceiverHull), |_| true);
-        let pass = options.pass(&map)?;
-        Ok(Ok(Self { map, pass, objects }))
+        Ok(Ok(Self::of(map, options, objects)?))
     }
 }
 
@@ -165,9 +177,7 @@ impl FittedMaps {
             let square = f64::from(map.clip_scale().length_squared()) / 2.0;
             let behind = (1.0 - square) / (1.0 + square) * reach;
             let objects = casters(stage, &body, |object| is_before(&map.clip_plane(), behind, object));
-            let map = Layout::Paraboloid(map.clone());
-            let pass = options.pass(&map)?;
-            maps.push(Some(FittedMap { map, pass, objects }));
+            maps.push(Some(FittedMap::of(Layout::Paraboloid(map.clone()), options, objects)?));
         }
         Ok(Ok(Self::of(stage, split, vec![*light], maps, options.cut)?))
     }

@@ -130,6 +130,7 @@ fn judged(
                 depths: depths.next()?,
                 is_reversed: map.as_ref()?.map.settings().clip().depth.is_reversed(),
                 bias: verdict::Bias::most(&map.as_ref()?.pass),
+                derived: map.as_ref()?.bias,
             })
         })
         .collect();

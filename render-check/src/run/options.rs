@@ -1,6 +1,7 @@
 //! The options of a run: how a light's maps are fitted, drawn and filtered.
 
 use anyhow::{Context, Result};
+use shadowfit::depth::DepthBias;
 use shadowfit::{DepthFormat, Settings};
 
 use super::cut::Cutting;
@@ -68,15 +69,31 @@ impl Options {
     ///
     /// When the filter's reach is invalid.
     pub fn pass(&self, map: &Layout) -> Result<MapPass> {
-        let (bias, (receiver, relative)) = match (self.bias, self.faces, self.filter) {
-            (Some(bias), ..) => (bias, (0.0, 0.0)),
-            (None, Faces::Second | Faces::Layers, _) | (None, _, Filter::Virtual(_)) => (Bias::NONE, (0.0, 0.0)),
-            _ => {
-                let enough = map.bias(self.format, self.filter.reach())?;
-                (Bias::away(&enough), (enough.receiver, enough.relative))
-            }
+        let bias = self.bias.unwrap_or(Bias::NONE);
+        let none = MapPass {
+            format: self.format,
+            faces: self.faces,
+            bias,
+            receiver: 0.0,
+            relative: 0.0,
+            points: self.points,
         };
-        Ok(MapPass { format: self.format, faces: self.faces, bias, receiver, relative, points: self.points })
+        Ok(self.derived_bias(map)?.map_or(none, |bias| none.with(&bias)))
+    }
+
+    /// The bias derived from the map for the filter; `None` where another is set, or none is needed: with second depth,
+    /// layers and virtual samples.
+    ///
+    /// # Errors
+    ///
+    /// When the filter's reach is invalid.
+    pub fn derived_bias(&self, map: &Layout) -> Result<Option<DepthBias>> {
+        match (self.bias, self.faces, self.filter) {
+            (Some(_), ..) | (None, Faces::Second | Faces::Layers, _) | (None, _, Filter::Virtual(_)) => Ok(None),
+            (None, Faces::All | Faces::Front | Faces::Back, _) => {
+                map.bias(self.format, self.filter.reach()).map(Some)
+            }
+        }
     }
 
     /// The border around the receivers that the filter needs, in texels.

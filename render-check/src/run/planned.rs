@@ -106,12 +106,7 @@ fn technique(of_light: &LightPlan) -> Technique {
 fn drawn(pass: &shadowfit::plan::Pass, options: &Options) -> MapPass {
     let Options { format, faces, points, .. } = *options;
     let none = MapPass { format, faces, bias: Bias::NONE, receiver: 0.0, relative: 0.0, points };
-    pass.bias().map_or(none, |bias| MapPass {
-        bias: Bias::away(bias),
-        receiver: bias.receiver,
-        relative: bias.relative,
-        ..none
-    })
+    pass.bias().map_or(none, |bias| none.with(bias))
 }
 
 impl FittedMaps {
@@ -150,7 +145,7 @@ impl FittedMaps {
                 }
             };
             let objects = plan.casters(pass).iter().map(|&id| id as usize).collect();
-            maps[part] = Some(FittedMap { map, pass: drawn(pass, options), objects });
+            maps[part] = Some(FittedMap { map, pass: drawn(pass, options), bias: pass.bias().copied(), objects });
         }
         if maps.iter().all(Option::is_none) {
             return Ok(None);

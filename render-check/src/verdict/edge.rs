@@ -59,7 +59,7 @@ fn around(place: DVec2, distance: f64) -> impl Iterator<Item = DVec2> {
 }
 
 /// The texel centres within `reach` of a point, along each axis.
-fn centres_within(place: DVec2, reach: f64) -> impl Iterator<Item = DVec2> {
+pub(super) fn centres_within(place: DVec2, reach: f64) -> impl Iterator<Item = DVec2> {
     let span = move |at: f64| {
         let (first, last) = ((at - reach - 0.5).ceil(), (at + reach - 0.5).floor());
         (0..=(last - first) as u32).map(move |i| first + f64::from(i) + 0.5)

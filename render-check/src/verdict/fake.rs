@@ -208,7 +208,7 @@ impl Fake {
     ) -> anyhow::Result<Verdict> {
         let frustum = Frustum::new(map);
         let is_reversed = map.settings().clip().depth.is_reversed();
-        let drawn = DrawnMap { projection: &frustum, depths, is_reversed, bias: self.bias };
+        let drawn = DrawnMap { projection: &frustum, depths, is_reversed, bias: self.bias, derived: None };
         judge(truth, &self.hand_over(&Split::whole(), &[Some(drawn)], lit), tracer)
     }
 

@@ -1,5 +1,6 @@
 //! The projection of a frustum map: one matrix.
 
+use shadowfit::depth::DepthBias;
 use shadowfit::glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
 use shadowfit::{ClipSpace, ShadowMap};
 
@@ -82,6 +83,10 @@ impl Projection for Frustum {
         // The rounding of w also affects x, y and depth, none of which exceeds one after the division.
         let of = |row: DVec4| relative * (magnitude(row) + magnitude(self.w));
         (self.scale() * of(self.x).max(of(self.y)), of(self.depth))
+    }
+
+    fn bias_distance(&self, point: DVec3, normal: DVec3, bias: &DepthBias) -> f64 {
+        self.map.bias_distance(point, normal, bias)
     }
 
     fn aliasing(&self, point: DVec3) -> f64 {

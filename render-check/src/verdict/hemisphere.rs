@@ -1,5 +1,6 @@
 //! The projection of a paraboloid map.
 
+use shadowfit::depth::DepthBias;
 use shadowfit::glam::{DVec2, DVec3};
 use shadowfit::omni::Paraboloid;
 
@@ -81,6 +82,10 @@ impl Projection for Hemisphere {
         let change = self.map.largest_edge(BENT) * self.scale() * slopes.element_sum();
         let distance = depth + self.map.near() / (self.map.far() - self.map.near());
         if change < distance { 4.0 / 3.0 * change * change / distance } else { f64::INFINITY }
+    }
+
+    fn bias_distance(&self, point: DVec3, normal: DVec3, bias: &DepthBias) -> f64 {
+        self.map.bias_distance(point, normal, bias)
     }
 
     fn aliasing(&self, point: DVec3) -> f64 {

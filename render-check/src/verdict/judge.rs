@@ -54,6 +54,7 @@ pub fn judge(truth: &TruthImage, rendered: &Rendered<'_>, tracer: &Tracer) -> Re
         counts: Counts::of(&marks, truth.shadowed()),
         worst_cluster: cluster::worst_cluster(truth, &marks),
         aliasing: Aliasing::of(compared().filter_map(|(surface, _)| aliasing(surface)).collect()),
+        beyond_bias: comparison.beyond_bias(&marks),
         marks,
     })
 }

@@ -42,7 +42,7 @@ use crate::scene::Mesh;
 const OFF_CENTRE: f64 = 1.0 / 16.0;
 
 /// The rasteriser's grid, in projection.
-const SUBTEXEL: f64 = 1.0 / 256.0;
+pub(super) const SUBTEXEL: f64 = 1.0 / 256.0;
 
 impl Comparison<'_> {
     /// Whether a caster is missing from the map in the receiver's texel.
@@ -176,7 +176,7 @@ mod tests {
             // Nothing is stored.
             let depths = vec![1.0; 256 * 256];
             let bias = Bias { constant: 0.0, slope };
-            let drawn = DrawnMap { projection: &frustum, depths: &depths, is_reversed: false, bias };
+            let drawn = DrawnMap { projection: &frustum, depths: &depths, is_reversed: false, bias, derived: None };
             let (split, maps) = (Split::whole(), [Some(drawn)]);
             let rendered = Fake::default().hand_over(&split, &maps, &[]);
             let comparison = Comparison { truth: &truth, rendered: &rendered, tracer: &tracer };

@@ -8,6 +8,7 @@
 //! 2. **edge**: the edge of a true shadow is closer than the map can resolve, or next to the pixel;
 //! 3. **false shadow** (acne) and **false light** (light leaks): the rest.
 
+mod bias_reach;
 mod cluster;
 mod comparison;
 mod edge;

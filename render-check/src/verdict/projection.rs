@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use shadowfit::depth::DepthBias;
 use shadowfit::glam::{DVec2, DVec3};
 
 /// The projection of a map.
@@ -43,6 +44,10 @@ pub trait Projection: fmt::Debug + Sync {
     fn bend(&self, _depth: f64, _slopes: DVec2) -> f64 {
         0.0
     }
+
+    /// How far behind a caster a receiver may be and still be lit with a bias derived from the map, in world units along
+    /// the light ray through a point of the caster, see [`shadowfit::ShadowMap::bias_distance`].
+    fn bias_distance(&self, point: DVec3, normal: DVec3, bias: &DepthBias) -> f64;
 
     /// The aliasing at a point, texel size over pixel size, see [`shadowfit::ShadowMap::aliasing`]; infinite
     /// outside the map.

@@ -1,5 +1,6 @@
 //! The renderer's output that is judged.
 
+use shadowfit::depth::DepthBias;
 use shadowfit::glam::DVec3;
 
 use super::frustum::Frustum;
@@ -39,6 +40,8 @@ pub struct DrawnMap<'a> {
     pub is_reversed: bool,
     /// The rasteriser's depth bias.
     pub bias: Bias,
+    /// The bias derived from the map, where it was drawn and tested with that.
+    pub derived: Option<DepthBias>,
 }
 
 impl DrawnMap<'_> {

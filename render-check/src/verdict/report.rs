@@ -104,6 +104,9 @@ impl Aliasing {
 pub struct Verdict {
     /// Numbers of pixels.
     pub counts: Counts,
+    /// The number of pixels with false light that lie farther behind their casters than the bias derived from the map
+    /// reaches, see [`shadowfit::ShadowMap::bias_distance`]; 0 with any other bias.
+    pub beyond_bias: usize,
     /// The largest cluster of faults; `None` without faults.
     pub worst_cluster: Option<Cluster>,
     /// The aliasing; `None` where nothing was compared.
@@ -126,6 +129,7 @@ impl Verdict {
         let marks: Vec<Mark> = truth.pixels().iter().map(mark).collect();
         Self {
             counts: Counts::of(&marks, truth.shadowed()),
+            beyond_bias: 0,
             worst_cluster: worst_cluster(truth, &marks),
             aliasing: None,
             marks,

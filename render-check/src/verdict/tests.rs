@@ -116,7 +116,8 @@ fn each_part_of_a_light_is_judged_by_its_own_map() {
     let whole = fake.judge(&map, &depths, &lit, &truth, &tracer).expect("sound inputs");
 
     let (frustum, split) = (Frustum::new(&map), Split::cube(position));
-    let drawn = DrawnMap { projection: &frustum, depths: &depths, is_reversed: false, bias: fake.bias };
+    let drawn =
+        DrawnMap { projection: &frustum, depths: &depths, is_reversed: false, bias: fake.bias, derived: None };
     let verdict = |maps: &[Option<DrawnMap>], lit: &[f32]| {
         judge(&truth, &fake.hand_over(&split, maps, lit), &tracer).expect("sound inputs")
     };
@@ -298,7 +299,13 @@ fn what_does_not_fit_together_is_refused() {
     let map = fake::fitted(&SUN, &uniform());
     let depths = vec![1.0; 256 * 256];
     let frustum = Frustum::new(&map);
-    let drawn = DrawnMap { projection: &frustum, depths: &depths, is_reversed: false, bias: Bias::default() };
+    let drawn = DrawnMap {
+        projection: &frustum,
+        depths: &depths,
+        is_reversed: false,
+        bias: Bias::default(),
+        derived: None,
+    };
     let (split, maps) = (Split::whole(), [Some(drawn)]);
     let whole = Fake::default().hand_over(&split, &maps, &[1.0; 4]);
     let refusal = |rendered: Rendered| judge(&truth, &rendered, &tracer).expect_err("unsound").to_string();

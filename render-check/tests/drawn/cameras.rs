@@ -108,8 +108,7 @@ fn two_eyes_in_one_map() {
             let objects =
                 objects.filter(|(_, object)| casts(object.min, object.max)).map(|(index, _)| index).collect();
             let layout = Layout::Frustum(map);
-            let pass = options.pass(&layout).expect("sound");
-            let fitted = FittedMap { map: layout, pass, objects };
+            let fitted = FittedMap::of(layout, &options, objects).expect("sound");
             let lights = vec![light.light];
             let fitted =
                 FittedMaps::of(stage, Split::whole(), lights, vec![Some(fitted)], options.cut).expect("sound");

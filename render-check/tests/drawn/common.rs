@@ -9,8 +9,8 @@ pub(super) fn gpu() -> Gpu {
     Gpu::new().unwrap_or_else(|error| panic!("{error:#}"))
 }
 
-/// Sweeps a group; checks that no caster is missing anywhere and that no run has more false pixels than `most`, as a
-/// part of what is compared.
+/// Sweeps a group; checks that no caster is missing anywhere, that no false light reaches farther behind its caster than the
+/// bias of its map, and that no run has more false pixels than `most`, as a part of what is compared.
 pub(super) fn sweep(name: &str, most: f64) -> Vec<SweepRun> {
     let group = GROUPS.iter().find(|group| group.name == name).expect(name);
     let shots = (group.shots)().expect("built in");
@@ -19,6 +19,7 @@ pub(super) fn sweep(name: &str, most: f64) -> Vec<SweepRun> {
     assert_eq!(runs.len(), summary.maps + summary.none);
     for run in &runs {
         assert_eq!(run.run.missing(), 0, "{run}");
+        assert_eq!(verdict(run).map_or(0, |verdict| verdict.beyond_bias), 0, "{run}");
     }
     assert!(
         summary.worst_false <= most,

@@ -129,7 +129,7 @@ fn judged(stage: &Stage<'_>, light: &StageLight, map: &ShadowMap, casters: &[std
     let depths = shadow_maps.depths(stage.gpu).expect("readable");
     let frustum = Frustum::new(map);
     let bias = verdict::Bias::most(&pass);
-    let drawn = DrawnMap { projection: &frustum, depths: &depths[0], is_reversed: false, bias };
+    let drawn = DrawnMap { projection: &frustum, depths: &depths[0], is_reversed: false, bias, derived: None };
     let rendered = Rendered {
         split: &split,
         maps: &[Some(drawn)],

@@ -193,8 +193,7 @@ impl<'a> Setup<'a> {
         let boxes = self.boxes.iter().enumerate();
         let meets = boxes.filter(|(_, one)| body.intersects_aabb(one.min.as_dvec3(), one.max.as_dvec3()));
         let objects = meets.map(|(object, _)| object).collect();
-        let pass = options.pass(&map)?;
-        Ok(Some(FittedMap { map, pass, objects }))
+        Ok(Some(FittedMap::of(map, options, objects)?))
     }
 
     fn settings(&self, size: u32) -> Result<Settings> {

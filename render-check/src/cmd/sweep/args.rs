@@ -6,7 +6,7 @@ use std::path::PathBuf;
 pub(crate) const HELP: &str = "\
 Each case is a small image of a built-in scene, drawn with every technique and compared with ray-traced truth. The table
 has a row for each group of cases, with its worst case; all results are written to --out as sweep.json. The command
-fails if a caster is missing in any case.";
+fails if a caster is missing in any case, or if false light reaches farther behind a caster than the map's bias does.";
 
 /// Options of `sweep`.
 #[derive(Clone, Debug, clap::Args)]

@@ -49,7 +49,8 @@ type Shots<'a> = Box<dyn Fn() -> Result<Vec<Shot>> + 'a>;
 ///
 /// # Errors
 ///
-/// When nothing can be drawn, with a hint; and when a caster is missing from a map.
+/// When nothing can be drawn, with a hint; when a caster is missing from a map; and when false light reaches farther
+/// behind a caster than the map's bias does.
 pub fn sweep(args: &SweepArgs) -> Result<()> {
     let is_asked_for = |name: &str| args.groups.is_empty() || args.groups.iter().any(|word| name.contains(word));
     let groups = GROUPS.iter().filter(|group| args.through.is_none() && is_asked_for(group.name));
@@ -82,6 +83,8 @@ pub fn sweep(args: &SweepArgs) -> Result<()> {
     say(&format!("wrote sweep.json to {}", args.out.display()));
     let missing: usize = summaries.iter().map(|summary| summary.missing).sum();
     ensure!(missing == 0, "{missing} pixels are lit because a caster is missing from a map");
+    let beyond: usize = summaries.iter().map(|summary| summary.beyond_bias).sum();
+    ensure!(beyond == 0, "{beyond} pixels are lit farther behind their casters than the map's bias reaches");
     Ok(())
 }
 
@@ -126,6 +129,8 @@ pub struct Summary {
     pub missing: usize,
     /// False shadow and false light.
     pub faults: usize,
+    /// Pixels with false light farther behind their casters than the bias reaches.
+    pub beyond_bias: usize,
     /// Wrong pixels at edges.
     pub edges: usize,
     /// The largest share of false pixels in a run, 0 to 1.
@@ -149,6 +154,7 @@ impl Summary {
             summary.maps += 1;
             summary.compared += counts.compared;
             summary.faults += counts.faults();
+            summary.beyond_bias += maps.verdict.beyond_bias;
             summary.edges += counts.edges();
             let share = counts.fraction(counts.faults());
             if share > summary.worst_false {
@@ -169,7 +175,8 @@ impl fmt::Display for SweepRun {
 }
 
 fn overview(summaries: &[Summary]) -> Table {
-    let header = ["group", "maps", "no map", "pixels compared", "missing", "false", "edge", "false at worst"];
+    let header =
+        ["group", "maps", "no map", "pixels compared", "missing", "beyond bias", "false", "edge", "false at worst"];
     let mut table = table::new(header, 1..header.len());
     for summary in summaries {
         table.add_row([
@@ -178,6 +185,7 @@ fn overview(summaries: &[Summary]) -> Table {
             summary.none.to_string(),
             summary.compared.to_string(),
             summary.missing.to_string(),
+            summary.beyond_bias.to_string(),
             percent(share(summary.faults, summary.compared)),
             percent(share(summary.edges, summary.compared)),
             percent(summary.worst_false),
