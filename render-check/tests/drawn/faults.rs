@@ -181,11 +181,15 @@ fn far_off_nothing_is_lost_but_what_positions_are() {
                 let apart = counts.faults().abs_diff(home.faults()) + counts.edges().abs_diff(home.edges());
                 // Vertices round differently in f32 about another eye, which moves a few edges over a pixel's middle.
                 assert!(apart * 500 < home.compared, "{run}: {counts:?} against {home:?}");
-                assert!(counts.fraction(counts.faults()) <= 0.0136, "{run}: {counts:?}");
+                assert!(counts.fraction(counts.faults()) <= 0.0041, "{run}: {counts:?}");
             }
             // The bias covers all that f32 does to a position, so that no surface shadows itself; what it lets through
             // is false light.
-            _ => assert!(counts.false_shadow <= home.false_shadow, "{run}: {counts:?} against {home:?}"),
+            _ => {
+                assert!(counts.false_shadow <= home.false_shadow, "{run}: {counts:?} against {home:?}");
+                let most = if distance == "1e6 mm" { 0.0136 } else { 0.08 };
+                assert!(counts.fraction(counts.faults()) <= most, "{run}: {counts:?}");
+            }
         }
     }
     assert_eq!(runs.len(), 2 * 3 * 3 * 5);
