@@ -68,10 +68,10 @@
 //!
 //! ## Fit
 //!
-//! [`fit`], or [`Focus::fit`], answers with a [`ShadowMap`], or that no map is needed ([`Empty`]), or that the light stands
-//! among its receivers ([`Surrounded`]). [`Warp`] says how texels are spread: [`Warp::Best`] is the default, [`Warp::Stable`]
-//! snaps to texels against shimmering, and there are PSM, LiSPSM and TSM. [`ShadowMap::aliasing`] says how large texels are in
-//! pixels, [`Focus::aliasing_lower_bound`] how much is left to gain. See `docs/warps.md`.
+//! [`fit`], or [`Focus::fit`], answers with a [`ShadowMap`], or that no map is needed ([`Empty`]), or that the light
+//! stands among its receivers ([`Surrounded`]). [`Warp`] says how texels are spread: [`Warp::Best`] is the default,
+//! [`Warp::Stable`] snaps to texels against shimmering, and there are PSM, LiSPSM and TSM. [`ShadowMap::aliasing`] says
+//! how large texels are in pixels, [`Focus::aliasing_lower_bound`] how much is left to gain. See `docs/warps.md`.
 //!
 #![doc = include_str!("../docs/images/concepts-warp.svg")]
 //!
@@ -143,9 +143,10 @@
 //!
 //! ## Depth bias
 //!
-//! A texel stores the depth of its centre, so that a plane would shadow itself beside it: shadow acne. [`ShadowMap::bias`] gives
-//! the least bias with which no plane does. Virtual samples ([`TangentPlane`](depth::TangentPlane)) and second depth
-//! ([`DepthTest`](depth::DepthTest)) do without. See `docs/depth.md`.
+//! A texel stores the depth of its centre, so that a plane would shadow itself beside it: shadow acne.
+//! [`ShadowMap::bias`] gives the least bias with which no plane does. Virtual samples
+//! ([`TangentPlane`](depth::TangentPlane)) and second depth ([`DepthTest`](depth::DepthTest)) do without. See
+//! `docs/depth.md`.
 //!
 #![doc = include_str!("../docs/images/concepts-bias.svg")]
 //!

@@ -17,9 +17,9 @@ use glam::DVec3;
 
 /// Several views, a light and a scene brought together, for one map that serves all of the views.
 ///
-/// R is the receiver volume of any of them, H the caster volume of any. The map's window and depth range hold all of it, the
-/// convex hull of the parts of R on the light's rays, so that views which overlap share texels, and views far apart waste those
-/// between them; [`Self::sharing`] says which it is. Each view's own [`Focus`] is an element of this.
+/// R is the receiver volume of any of them, H the caster volume of any. The map's window and depth range hold all of it,
+/// the convex hull of the parts of R on the light's rays, so that views which overlap share texels, and views far apart
+/// waste those between them; [`Self::sharing`] says which it is. Each view's own [`Focus`] is an element of this.
 ///
 /// ```
 /// use shadowfit::{FocusForm, Light, Outcome, Scene, Settings, View, multiview::SharedFocus};
@@ -171,8 +171,8 @@ impl<'a> SharedFocus<'a> {
         self.iter().map(move |part| part.caster_volume(form))
     }
 
-    /// The worst aliasing of a map of [`Self::fit`] over the receivers of all views, each point in the pixels of the view that
-    /// sees it, and the mean of the views' means. `None` without receivers. See [`ShadowMap::aliasing_over`].
+    /// The worst aliasing of a map of [`Self::fit`] over the receivers of all views, each point in the pixels of the view
+    /// that sees it, and the mean of the views' means. `None` without receivers. See [`ShadowMap::aliasing_over`].
     ///
     /// ```
     #[doc = include_str!("examples/sun.txt")]
@@ -223,8 +223,8 @@ impl<'a> SharedFocus<'a> {
         }
     }
 
-    /// The receiver volumes of the views, each as a body of its own. Where they have more vertices than there is room for, the
-    /// largest count as their bounding boxes.
+    /// The receiver volumes of the views, each as a body of its own. Where they have more vertices than there is room
+    /// for, the largest count as their bounding boxes.
     fn visible(&self) -> Polyhedron {
         const EACH: u32 = (Polyhedron::MAX_VERTICES / SharedFocus::MAX) as u32;
         let (mut all, mut one) = (Polyhedron::EMPTY, Polyhedron::EMPTY);
@@ -277,8 +277,8 @@ impl<'a> SharedFocus<'a> {
         depths
     }
 
-    /// The view that stands for all: the first, where all receivers lie before it, or one in whose image everything has the same
-    /// size.
+    /// The view that stands for all: the first, where all receivers lie before it, or one in whose image everything has
+    /// the same size.
     fn carrier(&self, visible: &Polyhedron) -> View {
         let first = self[0].view();
         let depths = VirtualCamera::depths(first, visible.positions());

@@ -122,8 +122,8 @@ impl AtlasTile {
         map.about_origin(texture_from_map * map_from_world).as_mat4()
     }
 
-    /// The range of texture coordinates, in the texture, that receivers have in the map: inside its border of `border` texels. A
-    /// filter that reads no farther than the border reads nothing of another map there.
+    /// The range of texture coordinates, in the texture, that receivers have in the map: inside its border of `border`
+    /// texels. A filter that reads no farther than the border reads nothing of another map there.
     ///
     /// ```
     #[doc = include_str!("../examples/cascades.txt")]

@@ -98,9 +98,9 @@ impl<'a> Cascades<'a> {
 
     /// Cuts a view into cascades.
     ///
-    /// `overlap`, 0 to 1, is the part of each cascade but the last in which the next one is blended in; the next one's map covers
-    /// it too. In a first cascade that begins before any receiver, it is a part of the range with receivers, if the splits are
-    /// [`CascadeSplits::Visible`]. Of a scene of lists, each focus looks at all of them once.
+    /// `overlap`, 0 to 1, is the part of each cascade but the last in which the next one is blended in; the next one's
+    /// map covers it too. In a first cascade that begins before any receiver, it is a part of the range with receivers,
+    /// if the splits are [`CascadeSplits::Visible`]. Of a scene of lists, each focus looks at all of them once.
     ///
     /// # Errors
     ///

@@ -38,8 +38,8 @@ pub enum SplitScheme {
     Uniform,
     /// Cascades whose ends have one ratio.
     Logarithmic,
-    /// Between the two, with λ from 0 (uniform) to 1 (logarithmic). The logarithmic scheme gives much to the range next to the eye,
-    /// which is mostly air.
+    /// Between the two, with λ from 0 (uniform) to 1 (logarithmic). The logarithmic scheme gives much to the range next
+    /// to the eye, which is mostly air.
     Practical(f64),
 }
 
@@ -68,8 +68,8 @@ pub enum CascadeSplits<'a> {
         /// How they are split.
         split: SplitScheme,
     },
-    /// Between the view's own planes: the splits stay while the camera moves, as maps that must not shimmer need it. For shadows
-    /// that end before the far plane, [narrow](View::narrowed) the view to that depth.
+    /// Between the view's own planes: the splits stay while the camera moves, as maps that must not shimmer need it. For
+    /// shadows that end before the far plane, [narrow](View::narrowed) the view to that depth.
     View {
         /// How many cascades, 1 to [`Cascades::MAX`].
         count: usize,
@@ -104,7 +104,7 @@ impl CascadeSplits<'_> {
             CascadeSplits::Visible { count, split } => {
                 split.check(count)?;
                 let range = visible();
-                // Corners of what is visible are off by a few roundings, and farther than any plane can be where both eye
+                // Corners of R are off by a few roundings, and farther than any plane can be where both eye
                 // and scene are as far out as can be.
                 let (near, far) = (range.min.max(near), range.max.min(far).min(MAX_COORDINATE));
                 Ok(split.depths(view.lens(), near, far, count))

@@ -13,8 +13,8 @@ use crate::map::shadow_map::ShadowMap;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct CascadeUniform {
-    /// For each cascade the columns of the matrix that receivers are tested with: from positions to texture coordinates in the
-    /// texture that holds all maps, and to the depth to compare there.
+    /// For each cascade the columns of the matrix that receivers are tested with: from positions to texture coordinates
+    /// in the texture that holds all maps, and to the depth to compare there.
     pub texture_from_origin: [[f32; 16]; Cascades::MAX],
     /// The least and the largest texture coordinates inside the border of each cascade's map.
     pub inner: [[f32; 4]; Cascades::MAX],
@@ -66,7 +66,8 @@ impl CascadeUniform {
 impl CascadeMaps<'_, '_> {
     /// The data that a shader needs about the cascades and their maps, kept as `layout` says.
     ///
-    /// `offset` gives the receiver offset of each map, if it has one: that of its bias, see [`ShadowMap::receiver_matrix_with`].
+    /// `offset` gives the receiver offset of each map, if it has one: that of its bias, see
+    /// [`ShadowMap::receiver_matrix_with`].
     ///
     /// ```
     #[doc = include_str!("../examples/cascades.txt")]

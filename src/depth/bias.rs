@@ -23,10 +23,10 @@ use glam::DVec3;
 /// | Direct3D | `DepthBias` | `SlopeScaledDepthBias` | 0 |
 /// | a shader that writes depth, with m = max(\|dz/dx\|, \|dz/dy\|) | steps of the format | times m | |
 ///
-/// `constant` and, in most maps, `slope_scale` depend on the format and the filter alone, so that they can be compiled into a
-/// pipeline; where f32 moves places by more than a 64th of a texel, the slope is one of the few that are 1.25, 1.5625, … times
-/// that. The receiver's part changes from fit to fit and is in a matrix that is uploaded anyway. To test with
-/// [`ShadowMap::receiver_matrix`] as it is, take [`Self::constant_alone`].
+/// `constant` and, in most maps, `slope_scale` depend on the format and the filter alone, so that they can be compiled
+/// into a pipeline; where f32 moves places by more than a 64th of a texel, the slope is one of the few that are 1.25,
+/// 1.5625, … times that. The receiver's part changes from fit to fit and is in a matrix that is uploaded anyway. To test
+/// with [`ShadowMap::receiver_matrix`] as it is, take [`Self::constant_alone`].
 ///
 /// ```
 #[doc = include_str!("../examples/sun.txt")]
@@ -37,7 +37,7 @@ use glam::DVec3;
 /// # Ok::<(), shadowfit::InputError>(())
 /// ```
 ///
-/// The bias is derived for planes, whatever the warp: see `docs/depth.md` for the derivation and for what it assumes. At
+/// The bias is derived for planes, whatever the warp: see `docs/depth.md` for the derivation and its assumptions. At
 /// creases and on curved surfaces made of facets some acne may remain.
 #[doc(alias = "acne")]
 #[doc(alias = "shadow acne")]
@@ -61,8 +61,9 @@ pub struct DepthBias {
     pub relative: f64,
     /// The most that both take off the depth of any receiver no nearer to the light than its near distance.
     pub most: f64,
-    /// How far f32 may move a place for `slope_scale` to suffice, in texels: [`Window::rounding`](crate::map::Window::rounding),
-    /// or under a local light [`ShadowMap::place_rounding`] beyond 1/16 of the farthest receiver's axial distance.
+    /// How far f32 may move a place for `slope_scale` to suffice, in texels:
+    /// [`Window::rounding`](crate::map::Window::rounding), or under a local light [`ShadowMap::place_rounding`] beyond
+    /// 1/16 of the farthest receiver's axial distance.
     pub places: f64,
 }
 
@@ -72,7 +73,7 @@ pub(crate) const GRID: f64 = 1.0 / 256.0;
 /// The least height of a triangle that the bias answers for, in texels.
 pub(crate) const LEAST_HEIGHT: f64 = 1.0;
 
-/// The largest part of their distance to the lamp that receivers may be off by.
+/// The largest part of their distance to a local light that receivers may be off by.
 const MOST_OF_DISTANCE: f64 = 1.0 / 8.0;
 
 /// The largest part of the depth range that a receiver is moved by, of either kind: beyond the whole range everything is lit
@@ -87,8 +88,8 @@ pub(crate) fn checked_reach(reach: f64) -> Result<f64, InputError> {
     check::within("reach", reach, Expected::Within { least: 0.5, most: Settings::MAX_SIZE.into() })
 }
 
-/// What a rasteriser adds to depth away from the light, where the depth range is 1, a unit is so much, and depth changes so much
-/// to the next texel.
+/// The depth that a rasteriser adds away from the light, for a unit and a slope (the change of depth to the next texel),
+/// where the depth range is 1.
 pub(crate) fn away(bias: &DepthBias, unit: f64, slope: f64) -> f64 {
     f64::from(bias.constant.saturating_abs()) * unit + f64::from(bias.slope_scale.abs()) * slope
 }
@@ -99,7 +100,7 @@ const USUAL_PLACES: f64 = 1.0 / 64.0;
 /// How many times one slope is the next smaller one, where f32 carries places farther.
 const NEXT_SLOPE: f32 = 1.25;
 
-/// The first of `usual` and the slopes above it, each [`NEXT_SLOPE`] times the one before, that is no less than what is needed: each
+/// The first of `usual` and the slopes above it, each [`NEXT_SLOPE`] times the one before, that is no less than needed: each
 /// is a pipeline in wgpu.
 fn one_of_few(usual: f32, needed: f64) -> f32 {
     let mut slope = usual;
@@ -114,14 +115,15 @@ struct Slope {
     slope: f64,
     /// f.
     of_slope: f64,
-    /// j: what an error of a corner's change can grow to on the way to the receiver.
+    /// j: how far an error of a corner's slope can grow on the way to the receiver.
     on_the_way: f64,
     /// 1 + k + 4 f/h₀: what multiplies ε in the receiver's part.
     times: f64,
 }
 
 impl Slope {
-    /// For a filter's reach, places that f32 moves by so many texels, and points by such a part of their distance to the light.
+    /// For a filter's reach, places that f32 moves by so many texels, and points by such a part of their distance to the
+    /// light.
     fn new(reach: f64, places: f64, part: f64) -> Self {
         let reach = reach + places;
         let corner = GRID + places;
@@ -159,8 +161,8 @@ impl DepthBias {
         ReceiverOffset::of(self.relative, self.receiver)
     }
 
-    /// The constant that does without the receiver's part, with the sign of the map's clip space; `None` in floating point, whose
-    /// units vanish towards depth 0, so that none does.
+    /// The constant that does without the receiver's part, with the sign of the map's clip space; `None` in floating
+    /// point, whose units vanish towards depth 0, so that none does.
     ///
     /// ```
     #[doc = include_str!("../examples/sun.txt")]
@@ -185,10 +187,10 @@ impl DepthBias {
 impl ShadowMap {
     /// The depth bias with which no plane has shadow acne in this map: the least that suffices for planes.
     ///
-    /// `reach` is how far from a point the middles of the texels lie that are compared for it, at most, across and down, in
-    /// texels: 0.5 for the nearest texel, 1 for a comparison sampler's 2 × 2, n/2 for n × n
-    /// ([`Filter::reach`](crate::Filter::reach)). A filter of several samplers' reads reaches as far as its farthest read does
-    /// and one texel more. `docs/depth.md` has the derivation.
+    /// `reach` is how far from a point the middles of the texels lie that are compared for it, at most, across and down,
+    /// in texels: 0.5 for the nearest texel, 1 for a comparison sampler's 2 × 2, n/2 for n × n
+    /// ([`Filter::reach`](crate::Filter::reach)). A filter of several samplers' reads reaches as far as its farthest read
+    /// does and one texel more. `docs/depth.md` has the derivation.
     ///
     /// # Errors
     ///
@@ -208,7 +210,7 @@ impl ShadowMap {
         let reach = checked_reach(reach)?;
         let MapNoise { depth, place, least_w, away_w, to_light, change } = self.noise;
         let (over_w, constant) = depth.parts(least_w);
-        // What is off by more than the map is anywhere.
+        // No more than the whole map.
         let places = place.at(away_w).min(Settings::MAX_SIZE.into());
         let part = if self.light.position().is_some() { (over_w / to_light).min(MOST_OF_DISTANCE) } else { 0.0 };
         let Slope { slope, of_slope, on_the_way, times } = Slope::new(reach, places, part);
@@ -217,8 +219,8 @@ impl ShadowMap {
         let short = (format.step(0.5) - format.bias_unit(0.5).start()).max(0.0);
         let receiver = times * constant + (on_the_way + 2.0 * of_slope) * over_w * change + short;
         let (receiver, over_w) = (receiver.min(MOST_OF_RANGE), (times * over_w).min(MOST_OF_RANGE));
-        // Where the matrix has lost what an offset towards the light takes off depth, what rounding has left of it and of w
-        // must not grow instead.
+        // Where rounding has lost e·l, on which an offset towards the light works, its remainders in the rows of depth and
+        // of w must not grow instead.
         let left = |row: usize| self.rows[row].on(self.light.homogeneous()).abs();
         let to_light = to_light.max(left(2)).max(left(3));
         let away = if self.settings.clip().depth.is_reversed() { -1 } else { 1 };
@@ -233,12 +235,12 @@ impl ShadowMap {
         })
     }
 
-    /// Peter-panning: how far behind a caster a receiver may be and still be lit, in world units along the light's ray through a
-    /// point on the caster.
+    /// Peter-panning: how far behind a caster a receiver may be and still be lit, in world units along the light's ray
+    /// through a point on the caster.
     ///
-    /// It is the most that a driver may make of the bias, on a plane across `normal` (of any length), where the ray goes through
-    /// the middle of a texel; elsewhere in the texel it is more or less by the plane's own slope. Infinite outside of the map,
-    /// where the light sees the plane from its edge, and where no depth is so much larger.
+    /// It is the most that a driver may make of the bias, on a plane across `normal` (of any length), where the ray goes
+    /// through the middle of a texel; elsewhere in the texel it is more or less by the plane's own slope. Infinite
+    /// outside of the map, where the light sees the plane from its edge, and where no depth is so much larger.
     ///
     /// ```
     #[doc = include_str!("../examples/sun.txt")]
@@ -255,7 +257,7 @@ impl ShadowMap {
             return f64::INFINITY;
         };
         let unit = bias.format.bias_unit(1.0);
-        // The constant, the slope as the length of the gradient, and the rounding of what is stored.
+        // The constant, the slope as the length of the gradient, and the rounding of the stored depth.
         let added = away(bias, *unit.end(), slopes.length()) + bias.format.step(0.5);
         let [_, _, depth, w] = &self.rows;
         let tested = bias.offset().depth_row(*depth, *w, self.light.homogeneous(), &self.along);

@@ -8,17 +8,17 @@ use crate::math::bounds::most;
 use glam::{DVec2, DVec3};
 
 impl ShadowMap {
-    /// How far to move a receiver along its normal before lookup, in world units, so that its plane has no shadow acne: `bias`
-    /// done in space instead of in depth.
+    /// How far to move a receiver along its normal before lookup, in world units, so that its plane has no shadow acne:
+    /// `bias` done in space instead of in depth.
     ///
-    /// It is for renderers that bias so (Holbert, *Normal Offset Shadows*, GDC 2011; Bevy's `shadow_normal_bias`, the normal
-    /// bias of Unity and Godot): casters are drawn and receivers tested without any other bias, and the receiver X is looked up at
-    /// X + d n. Engines that take a multiple of the texel's size take d over
-    /// [`Footprint::longest`](crate::map::Footprint::longest). Unlike a slope it stays small where the light grazes a surface, and
-    /// it moves shadows sideways. `docs/depth.md` derives it.
+    /// It is for renderers that bias so (Holbert, *Normal Offset Shadows*, GDC 2011; Bevy's `shadow_normal_bias`, the
+    /// normal bias of Unity and Godot): casters are drawn and receivers tested without any other bias, and the receiver X
+    /// is looked up at X + d n. Engines that take a multiple of the texel's size take d over
+    /// [`Footprint::longest`](crate::map::Footprint::longest). Unlike a slope it stays small where the light grazes a
+    /// surface, and it moves shadows sideways. `docs/depth.md` derives it.
     ///
-    /// `normal` may have any length and point to either side; the move is towards the light's side. Infinite outside of the map,
-    /// and where no distance suffices.
+    /// `normal` may have any length and point to either side; the move is towards the light's side. Infinite outside of
+    /// the map, and where no distance suffices.
     ///
     /// ```
     #[doc = include_str!("../examples/sun.txt")]
@@ -63,7 +63,7 @@ impl ShadowMap {
     /// The largest [`Self::normal_offset`] at a point over all normals, in world units. Infinite outside of the map.
     ///
     /// At an angle θ between normal and light it is at most `a cos θ + b sin θ`, with b the slope times the longer side of a
-    /// texel and a what the noise of depth takes along the ray, over what w may change by.
+    /// texel and a the noise of depth along the ray, over the change that w allows.
     ///
     /// ```
     #[doc = include_str!("../examples/sun.txt")]
@@ -93,8 +93,9 @@ impl ShadowMap {
         if left > 0.5 { moved / left } else { f64::INFINITY }
     }
 
-    /// One normal offset for all receivers, in world units: the largest [`Self::normal_offset_at`] over the vertices of R and the
-    /// middles of its edges that are no nearer to the light than its near distance. `focus` is the one that the map was fitted from.
+    /// One normal offset for all receivers, in world units: the largest [`Self::normal_offset_at`] over the vertices of R
+    /// and the middles of its edges that are no nearer to the light than its near distance. `focus` is the one that the
+    /// map was fitted from.
     ///
     /// ```
     #[doc = include_str!("../examples/sun.txt")]

@@ -15,7 +15,7 @@ use crate::mesh::Solidity;
 /// All compare alike: a point is lit where its depth is at most the stored one (≤). They differ in what needs a bias: with
 /// first depth every lit surface; with second depth only open meshes, as a solid's lit side is compared with its far side;
 /// `docs/depth.md` compares them, at contacts too, with measurements. A mesh with a hole that is drawn as if it were a solid
-/// leaks light in second depth: [`Self::culling`] decides by what the mesh is.
+/// leaks light in second depth: [`Self::culling`] goes by the mesh's solidity.
 ///
 /// ```
 /// use shadowfit::{depth::{Culling, DepthTest}, mesh::Solidity};
@@ -24,8 +24,8 @@ use crate::mesh::Solidity;
 /// assert_eq!(DepthTest::Second.culling(Solidity::Watertight), Culling::Front);
 /// ```
 ///
-/// Sources: Williams 1978; Wang & Molnar, *Second-Depth Shadow Mapping*, UNC TR94-019, 1994; for the middle of two layers Woo,
-/// *The Shadow Depth Map Revisited*, Graphics Gems III, 1992.
+/// Sources: Williams 1978; Wang & Molnar, *Second-Depth Shadow Mapping*, UNC TR94-019, 1994; for the middle of two layers
+/// Woo, *The Shadow Depth Map Revisited*, Graphics Gems III, 1992.
 #[doc(alias = "second-depth shadow mapping")]
 #[doc(alias = "back-face shadow")]
 #[doc(alias = "midpoint shadow map")]
@@ -38,9 +38,9 @@ pub enum DepthTest {
     First,
     /// The far side of solids, and open meshes as they are (Wang & Molnar 1994).
     Second,
-    /// Halfway between the first two surfaces along a ray, whatever they belong to (Woo 1992): the map is drawn twice, the second
-    /// time without what the first holds, and the two are averaged; where there is no second surface, with the depth that the map
-    /// is cleared to.
+    /// Halfway between the first two surfaces along a ray, whatever they belong to (Woo 1992): the map is drawn twice,
+    /// the second time without the surface that the first holds, and the two are averaged; where there is no second
+    /// surface, with the depth that the map is cleared to.
     ///
     /// It asks nothing of the meshes, but every receiver must be drawn too. It does not pay where virtual samples can be had:
     /// [`plan`](crate::plan) never chooses it. The shader functions of the `wgsl` feature do both halves of it.
@@ -62,8 +62,8 @@ pub enum Culling {
 impl DepthTest {
     /// The faces to leave out when a mesh is drawn into the map.
     ///
-    /// First depth leaves out none. The light meets a front of a solid first, so the backs could go; but where a point light, or
-    /// the distance at which its map begins, lies inside the solid, backs are all there is to cast.
+    /// First depth leaves out none. The light meets a front of a solid first, so the backs could go; but where a point
+    /// light, or the distance at which its map begins, lies inside the solid, backs are all there is to cast.
     ///
     /// ```
     /// use shadowfit::{depth::{Culling, DepthTest}, mesh::Solidity};

@@ -8,11 +8,12 @@ use glam::{DVec2, DVec3};
 /// The bounds of a ball or a disc in a map, for point clouds as casters: the axis-aligned rectangle that it just fits into,
 /// in texels ([`ShadowMap::splat`], [`ShadowMap::disc_splat`]).
 ///
-/// Coordinates are texture coordinates times the map's sides: the texel in column i and row j is the square from (i, j) to
-/// (i + 1, j + 1). Each point of a cloud stands for a small disc of the surface it was taken from (Stamminger & Drettakis 2002,
-/// §5). Where discs cover a surface in the world, their rectangles cover it in the map: a square grid of points a distance s
-/// apart needs a radius of s/√2. A disc's depth is that of its plane, a ball's that of its centre. `docs/depth.md` has the
-/// rest: how wires stay whole, and how a shader discards what is in the rectangle but not in the disc.
+/// Coordinates are texture coordinates times the map's sides: the texel in column i and row j is the square from (i, j)
+/// to (i + 1, j + 1). Each point of a cloud stands for a small disc of the surface it was taken from (Stamminger &
+/// Drettakis 2002, §5). Where discs cover a surface in the world, their rectangles cover it in the map: a square grid of
+/// points a distance s apart needs a radius of s/√2. A disc's depth is that of its plane, a ball's that of its centre.
+/// `docs/depth.md` has the rest: how wires stay whole, and how a shader discards fragments in the rectangle but not in
+/// the disc.
 ///
 /// ```
 #[doc = include_str!("../examples/sun.txt")]
@@ -68,8 +69,9 @@ impl Splat {
         Self { half: self.half.max(DVec2::splat(Self::LEAST_HALF)), ..*self }
     }
 
-    /// The size to draw a point with, where an API has points (`gl_PointSize`, Vulkan's `PointSize`): the side, in texels, of the
-    /// square about [`Self::centre`] that holds the rectangle. A point of [`Self::covering`] size covers as the rectangle does.
+    /// The size to draw a point with, where an API has points (`gl_PointSize`, Vulkan's `PointSize`): the side, in
+    /// texels, of the square about [`Self::centre`] that holds the rectangle. A point of [`Self::covering`] size covers
+    /// as the rectangle does.
     #[must_use]
     pub fn diameter(&self) -> f64 {
         2.0 * self.half.max_element()
@@ -79,8 +81,8 @@ impl Splat {
 impl ShadowMap {
     /// The exact bounds in the map of a ball, given by its centre and radius in world space.
     ///
-    /// `None` where the ball reaches a point with w ≤ 0, as next to a point light: a part of it is then infinitely far away in
-    /// the map. Also `None` for numbers that are not finite and for a negative radius.
+    /// `None` where the ball reaches a point with w ≤ 0, as next to a point light: a part of it is then infinitely far
+    /// away in the map. Also `None` for numbers that are not finite and for a negative radius.
     ///
     /// ```
     #[doc = include_str!("../examples/spot.txt")]

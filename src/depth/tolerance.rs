@@ -14,7 +14,7 @@ pub const RASTER_GRID: f64 = 1.0 / 256.0;
 const MOST_OF_RANGE: f64 = 2.0;
 
 /// The rounding that a comparison with a virtual sample allows for, so that no plane has shadow acne
-/// ([`ShadowMap::comparison_tolerance`]): what remains of a bias where virtual samples do the rest.
+/// ([`ShadowMap::comparison_tolerance`]): the rest of a bias that virtual samples leave.
 ///
 /// At a point with the given w, on a plane whose depth changes by (p, q) from texel to texel, it is, where the depth range is
 /// 1,
@@ -32,7 +32,7 @@ const MOST_OF_RANGE: f64 = 2.0;
 ///
 /// let tolerance = map.comparison_tolerance(DepthFormat::Float32, Filter::Hardware2x2.reach())?;
 /// let plane = TangentPlane::new(&map, floor, up).expect("in the map");
-/// // Four metres from the light it is a sixth of what it is a centimetre from it.
+/// // Far less four metres from the light than next to it.
 /// assert!(plane.tolerance(&tolerance) < 0.2 * tolerance.most);
 /// assert_eq!(tolerance.to_array()[0], tolerance.constant as f32);
 /// # Ok::<(), shadowfit::InputError>(())
@@ -64,7 +64,8 @@ impl ComparisonTolerance {
         Self { constant, over_w: 0.0, most: 0.0, slope: RASTER_GRID }
     }
 
-    /// The tolerance at a point with the given w, on a plane across the light's ray; the largest where w ≤ 0, outside of the map.
+    /// The tolerance at a point with the given w, on a plane across the light's ray; the largest where w ≤ 0, outside of
+    /// the map.
     ///
     /// ```
     #[doc = include_str!("../examples/spot.txt")]
@@ -86,8 +87,8 @@ impl ComparisonTolerance {
 }
 
 impl ShadowMap {
-    /// The tolerance of comparisons in this map with virtual samples ([`TangentPlane`](crate::depth::TangentPlane)), or between
-    /// two layers.
+    /// The tolerance of comparisons in this map with virtual samples ([`TangentPlane`](crate::depth::TangentPlane)), or
+    /// between two layers.
     ///
     /// `reach` is how far from a point the middles of the texels lie that are compared for it, at most, across and down, in
     /// texels, as for [`Self::bias`]: 0.5 for one texel, 1 for 2 × 2, n/2 for n × n.

@@ -78,8 +78,8 @@ pub struct ShadowSample {
 }
 
 impl TangentPlane {
-    /// The plane through a point of a receiver across its normal, both in world space; the normal may have any length and point
-    /// to either side.
+    /// The plane through a point of a receiver across its normal, both in world space; the normal may have any length and
+    /// point to either side.
     ///
     /// `None` where the point lies behind the map (w ≤ 0) or the plane has no direction: a normal that is zero or not finite.
     ///
@@ -155,8 +155,8 @@ impl TangentPlane {
 
     /// Tests the 2 × 2 texels around the point, blended by its distance from their centres, as a comparison sampler does.
     ///
-    /// `tolerance` is [`ShadowMap::comparison_tolerance`] for a reach of 1. `stored` reads the map: the depth of a texel by its
-    /// column and row in texture space, from 0 to one less than the map's width and height.
+    /// `tolerance` is [`ShadowMap::comparison_tolerance`] for a reach of 1. `stored` reads the map: the depth of a texel
+    /// by its column and row in texture space, from 0 to one less than the map's width and height.
     ///
     /// ```
     #[doc = include_str!("../examples/sun.txt")]
@@ -182,8 +182,8 @@ impl TangentPlane {
     /// Tests the `taps` × `taps` texels around the point, each counted alike: percentage-closer filtering (Reeves, Salesin
     /// & Cook 1987).
     ///
-    /// One tap is the nearest texel, at which the virtual sample always decides; 0 counts as one. `tolerance` is that for a reach
-    /// of half of the taps, `stored` as for [`Self::blended`].
+    /// One tap is the nearest texel, at which the virtual sample always decides; 0 counts as one. `tolerance` is that for
+    /// a reach of half of the taps, `stored` as for [`Self::blended`].
     ///
     /// ```
     #[doc = include_str!("../examples/sun.txt")]
@@ -213,7 +213,7 @@ impl TangentPlane {
     ///
     /// 1. The point's depth is at most every stored one: lit.
     /// 2. It is greater than every stored one: in shadow.
-    /// 3. They disagree: each texel's virtual sample is compared with what is stored there.
+    /// 3. They disagree: each texel's virtual sample is compared with its stored depth.
     ///
     /// The first two save the virtual samples and are sound on planes. The point lies between the texels' centres, so that
     /// its depth is a convex combination of the plane's depths there: it can be greater than all of them no more than it

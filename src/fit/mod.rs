@@ -139,9 +139,9 @@ impl Focus<'_> {
 
     /// Fits one shadow map after that of the previous frame, whose view and light were not much different.
     ///
-    /// Only [`Warp::Best`] uses it: the search begins where the last one ended, which takes about half of the time, and stays
-    /// with the same local minimum while there is one and no closed form is better. [`ShadowMap::jumped`] says when it jumped.
-    /// All else is as by [`Self::fit`].
+    /// Only [`Warp::Best`] uses it: the search begins where the last one ended, which takes about half of the time, and
+    /// stays with the same local minimum while there is one and no closed form is better. [`ShadowMap::jumped`] says when
+    /// it jumped. All else is as by [`Self::fit`].
     ///
     /// ```
     #[doc = include_str!("../examples/sun.txt")]
@@ -160,8 +160,8 @@ impl Focus<'_> {
     }
 
     fn fit_after(&self, previous: Option<Previous>, settings: &Settings) -> Outcome {
-        // One body after another in the same memory: H where the camera is moved back by it, R, and what can cast
-        // into the window.
+        // One body after another in the same memory: H where the camera is moved back by it, R, and the casters in
+        // the window.
         let mut body = Polyhedron::EMPTY;
         let depths = match (settings.warp(), settings.shift()) {
             // Only the perspective warp has a camera to move.

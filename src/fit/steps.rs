@@ -20,7 +20,7 @@ use crate::warp::virtual_camera::VirtualCamera;
 use crate::warp::{Precision, Proposed, Samples, Visible, light_space, psm, trapezoidal};
 use glam::{DVec2, DVec3, DVec4};
 
-/// The window and the depth range are at least this part of half of what the image shows at the receivers: a
+/// The window and the depth range are at least this part of half of the image's height at the receivers: a
 /// millionth of a pixel or so, for a scene that is a point.
 const LEAST_PART: f64 = 1.0 / 1_073_741_824.0;
 
@@ -56,7 +56,7 @@ struct Fit<'a> {
     /// The grid of a stable map, or why there is none.
     stable: Option<Stable>,
     fallback: Option<WarpFallback>,
-    /// What the f32 matrices take positions relative to.
+    /// The origin that positions are relative to in the f32 matrices.
     origin: DVec3,
 }
 
@@ -220,7 +220,7 @@ impl<'a> Fit<'a> {
         Chosen { proposed, jumped }
     }
 
-    /// What the window has to cover: R. Nothing else in hull(R, l) can widen it.
+    /// The extent of R in the map, which the window has to cover. Nothing else in hull(R, l) can widen it.
     fn cover(&self, map: &Homography, receivers: &Polyhedron) -> Covered {
         let view = self.focus.view();
         let (mut x, mut y, mut depth) = (Interval::EMPTY, Interval::EMPTY, Interval::EMPTY);
@@ -251,7 +251,7 @@ impl<'a> Fit<'a> {
         least_c: f64,
         receivers: &Polyhedron,
     ) -> Rounding {
-        // What is so far from a local light has at least so much c, whatever the warp; nothing is beside a directional one.
+        // The least c of points beyond 1/16 of the farthest receiver's axial distance from a local light, whatever the warp.
         let away_c = if self.rays.local { covered.ratio.min * along.max * AWAY_FROM_LAMP } else { covered.c.min };
         let mut rounding = Rounding::new(map, &self.rays, self.origin, &covered.c, [least_c, away_c]);
         for point in receivers.positions() {
@@ -302,8 +302,8 @@ impl<'a> Fit<'a> {
         Ok(casting)
     }
 
-    /// Pads the window and the depth range for what f32 does, and puts the map together.
-    #[expect(clippy::too_many_arguments, reason = "what all steps before have found")]
+    /// Pads the window and the depth range for the rounding of f32, and puts the map together.
+    #[expect(clippy::too_many_arguments, reason = "the results of all steps before")]
     fn assembled(
         &self,
         on_chart: &OnChart,

@@ -18,8 +18,8 @@ pub struct Aliasing {
     pub worst: f64,
     /// Where the worst was found, in world space.
     pub worst_at: DVec3,
-    /// Upper bound on the aliasing anywhere in R: 1 + 2⁻¹⁰ times the worst. Where that would take too long, as over a floor that
-    /// has much the same aliasing all over, 1 + 2⁻⁴ times it or more.
+    /// Upper bound on the aliasing anywhere in R: 1 + 2⁻¹⁰ times the worst. Where that would take too long, as over a
+    /// floor that has much the same aliasing all over, 1 + 2⁻⁴ times it or more.
     #[cfg_attr(feature = "serde", serde(with = "crate::math::infinity"))]
     pub upper_bound: f64,
     /// The mean over the volume of R, over the area of a flat R, or over the surfaces of listed receivers.
@@ -43,9 +43,9 @@ impl ShadowMap {
     /// # Ok::<(), shadowfit::InputError>(())
     /// ```
     ///
-    /// The worst need not be at a vertex of R, so R is searched; `docs/design.md` has the bound that the search relies on. The
-    /// mean is by quadrature, with a relative error below 1e-3. All of this takes a thousand times as long as a fit, nearly all
-    /// of it for the mean, and allocates nothing.
+    /// The worst need not be at a vertex of R, so R is searched; `docs/design.md` has the bound that the search relies
+    /// on. The mean is by quadrature, with a relative error below 1e-3. All of this takes a thousand times as long as a
+    /// fit, nearly all of it for the mean, and allocates nothing.
     #[must_use]
     pub fn aliasing_over(&self, focus: &Focus<'_>) -> Option<Aliasing> {
         let visible = focus.visible_beyond_light();
@@ -57,8 +57,8 @@ impl ShadowMap {
 
     /// The same over listed receivers only, the part of each box that is in view and lit. `None` where there is none.
     ///
-    /// The mean is over the surfaces of these parts. Boxes that are segments or points count for the worst, and for the mean, as
-    /// one each, where there are no others.
+    /// The mean is over the surfaces of these parts. Boxes that are segments or points count for the worst, and for the
+    /// mean, as one each, where there are no others.
     ///
     /// ```
     #[doc = include_str!("../examples/sun.txt")]
@@ -126,7 +126,7 @@ struct Survey<'a> {
     upper_bound: f64,
 }
 
-/// How much more than the worst that was found there may be: first what is cheap to have, then what is wanted.
+/// How far the upper bound may lie above the worst that was found: first a cheap bound, then the wanted one.
 const TOLERANCES: [f64; 2] = [1.0 + 1.0 / 16.0, 1.0 + 1.0 / 1024.0];
 
 /// Triangles of a body that are halved at most.
@@ -232,10 +232,10 @@ fn pixel(map: &ShadowMap, point: DVec3) -> f64 {
 
 /// Upper bound on the aliasing on a triangle, and the edge to halve if that is too much.
 ///
-/// With l the light, c the covector that is w and M(X) the matrix, affine in X, whose largest singular value times c·X/|X − l|
-/// is a texel's longest side: on a triangle with corners Xᵢ the square of aliasing is, for each direction t of texels, a
-/// fraction of two polynomials of degree four. It is no more than the largest fraction of their Bernstein coefficients, sums
-/// with the same weights of
+/// With l the light, c the covector that is w and M(X) the matrix, affine in X, whose largest singular value times c·X/|X
+/// − l| is a texel's longest side: on a triangle with corners Xᵢ the square of aliasing is, for each direction t of
+/// texels, a fraction of two polynomials of degree four. It is no more than the largest fraction of their Bernstein
+/// coefficients, sums with the same weights of
 ///
 /// ```text
 ///     cᵢ cⱼ (Mₖ t · Mₗ t)      and      pixelᵢ pixelⱼ (Xₖ − l) · (Xₗ − l)
@@ -310,11 +310,12 @@ mod tests {
         let place = || (-15.0..15.0, 5.0..30.0, -30.0..10.0);
         let sun = (-3.0..3.0, 0.1..1.0, -3.0..3.0)
             .prop_filter_map("a sun", |to: (f64, f64, f64)| Light::directional(to).ok());
-        let lamp = place().prop_filter_map("a lamp", |at: (f64, f64, f64)| Light::point(at, 0.1, 90.0).ok());
+        let point =
+            place().prop_filter_map("a point light", |at: (f64, f64, f64)| Light::point(at, 0.1, 90.0).ok());
         let spot = (place(), 0.2..1.5).prop_filter_map("a spot", |(at, half): ((f64, f64, f64), f64)| {
             Light::spot(at, (0.1, -1.0, -0.2), half, 0.1, 90.0).ok()
         });
-        prop_oneof![sun, lamp, spot]
+        prop_oneof![sun, point, spot]
     }
 
     /// A wire along the view from 10 to 0.1 under the sun, and a matrix made for it: c vanishes on a line that leaves the

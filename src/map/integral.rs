@@ -45,7 +45,7 @@ impl Simplex {
         mean * self.measure()
     }
 
-    /// The integral if the function were everywhere what it is at the corner where it is most.
+    /// An upper estimate of the integral: the function's largest value at a corner, times the measure.
     fn at_most(&self, function: impl FnMut(DVec3) -> f64) -> f64 {
         let corners = self.corners.iter().copied().take(self.dimension + 1);
         corners.map(function).fold(0.0, most) * self.measure()
@@ -98,8 +98,9 @@ pub(crate) struct Fineness {
 impl Fineness {
     /// For smooth functions that go with 1/depth², to one part in a hundred thousand.
     ///
-    /// The function 1/x on [1, 3/2] is analytic within an ellipse whose axes sum to 9.9 times its half length, so that polynomials
-    /// of degree 5 come within 9.9⁻⁶ or so of it, one part in a million; on [1, 2] it is 5.8⁻⁶, one in forty thousand.
+    /// The function 1/x on [1, 3/2] is analytic within an ellipse whose axes sum to 9.9 times its half length, so that
+    /// polynomials of degree 5 come within 9.9⁻⁶ or so of it, one part in a million; on [1, 2] it is 5.8⁻⁶, one in forty
+    /// thousand.
     pub(crate) const FINE: Self = Self { depths: 1.5, angle: 1.0, error: f64::INFINITY };
     /// For functions with edges, as the longer of two lengths has, to one part in a thousand.
     pub(crate) const CHECKED: Self = Self { depths: 3.0, angle: 1.5, error: 1.0 / 2048.0 };
@@ -107,7 +108,7 @@ impl Fineness {
 
 /// How finely a body is cut.
 pub(crate) struct Grading {
-    /// What a pixel's side is a multiple of.
+    /// The linear function that a pixel's side is a multiple of.
     unit: Plane,
     /// The least unit; rounding alone brings it below that.
     least_unit: f64,
@@ -123,7 +124,7 @@ impl Grading {
     const NEGLIGIBLE: f64 = 1.0 / 1_048_576.0;
     /// The error of one simplex, of the whole, that is small enough whatever it is of its own.
     const UNSEEN: f64 = 1.0 / 131_072.0;
-    /// How near to the light that matters, in sizes of the body and in depths before the eye. What is nearer is a
+    /// How near to the light that matters, in sizes of the body and in depths before the eye. Nearer parts are a
     /// 65,536th part, or less, of an area that counts as one.
     const NEXT_TO_LIGHT: f64 = 1.0 / 256.0;
 
@@ -159,7 +160,7 @@ impl Grading {
         most(self.unit.at(point), self.least_unit)
     }
 
-    /// The length of an edge over what it may be for the light.
+    /// The length of an edge over its limit for the light.
     fn angle(&self, a: DVec3, b: DVec3, unit: f64) -> f64 {
         let Some(position) = self.light else { return 0.0 };
         let edge = b - a;
@@ -251,7 +252,7 @@ pub(crate) fn for_each_simplex(body: &ConvexBody, dimension: usize, mut each: im
         let farther = |a: DVec3, &b: &DVec3| if b.distance(from) > a.distance(from) { b } else { a };
         vertices.iter().fold(from, farther)
     };
-    // Nothing times infinity, of what is outside of the map, would be NaN.
+    // A measure of zero times infinity, outside of the map, would be NaN.
     let mut some = |simplex: Simplex| {
         if simplex.measure() > 0.0 {
             each(simplex);

@@ -1,4 +1,4 @@
-//! Distances along a map's axis: linear depth, and what a world distance is for a light at a position.
+//! Distances along a map's axis: linear depth, and world distances as parts of the way to a local light.
 
 use crate::convex::Plane;
 use crate::math::bounds::Interval;
@@ -17,8 +17,8 @@ pub(crate) struct LinearDepth {
 }
 
 impl LinearDepth {
-    /// `nearest` is where the first caster in the window is, `rounding` what f32 makes of distances, `least` the least length
-    /// of a range.
+    /// `nearest` is where the first caster in the window is, `rounding` the error of distances in f32, `least` the least
+    /// length of a range.
     pub(crate) fn new(rays: &Rays, nearest: f64, visible: Interval, rounding: f64, least: f64) -> Self {
         // As a depth range is padded: both ends by the rounding, and the length for a scene seen from straight above.
         let missing = 0.5 * (least.max(QUIET * rounding) - (visible.max - nearest)).max(0.0);

@@ -8,8 +8,8 @@ use crate::settings::Settings;
 use glam::{DVec2, DVec3};
 
 impl Focus<'_> {
-    /// Lower bound on the worst aliasing over R for any parameterization with the settings' number of texels, warped, split or
-    /// bent: what the aliasing of a map is to be compared with. 0 where nothing is in view and lit, or where the light sees R from
+    /// Lower bound on the worst aliasing over R for any parameterization with the settings' number of texels, warped,
+    /// split or bent: the mark to hold the aliasing of a map against. 0 without receivers, or where the light sees R from
     /// its edge.
     ///
     /// ```
@@ -39,7 +39,7 @@ impl Focus<'_> {
         for [a, b, c] in triangles(&visible) {
             let outwards = (b - a).cross(c - a).normalize_or_zero();
             let ray = |point: DVec3| position.map_or(-l.truncate(), |position| point - position);
-            // What of the triangle lies across the ray, the same side of it everywhere.
+            // Which side of the triangle faces the light; the same all over it.
             if side * outwards.dot(ray(a)) <= 0.0 {
                 continue;
             }

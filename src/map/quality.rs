@@ -4,7 +4,8 @@ use crate::convex::Plane;
 use core::ops::RangeInclusive;
 use glam::{DVec2, DVec3};
 
-/// The patch that one texel covers at a point: a parallelogram across the light's ray ([`ShadowMap::footprint`](crate::ShadowMap::footprint)).
+/// The patch that one texel covers at a point: a parallelogram across the light's ray
+/// ([`ShadowMap::footprint`](crate::ShadowMap::footprint)).
 ///
 /// ```
 /// use shadowfit::{glam::DVec3, map::Footprint};
@@ -30,8 +31,8 @@ impl Footprint {
         self.along_x.cross(self.along_y).length()
     }
 
-    /// The side of the footprint where it is longest, in world units: the larger singular value of (along x, along y), which is
-    /// twice the longer semi-axis of the ellipse that the map makes of a texel's inscribed circle.
+    /// The side of the footprint where it is longest, in world units: the larger singular value of (along x, along y),
+    /// which is twice the longer semi-axis of the ellipse that the map makes of a texel's inscribed circle.
     #[must_use]
     pub fn longest(&self) -> f64 {
         self.singular_values().0
@@ -93,12 +94,12 @@ impl DepthFormat {
         }
     }
 
-    /// The depth of one unit of constant bias, at least and at most, in a triangle whose largest depth as stored is `largest`:
-    /// r of wgpu, Vulkan and `glPolygonOffset`, a `DepthBias` of 1 in Direct3D.
+    /// The depth of one unit of constant bias, at least and at most, in a triangle whose largest depth as stored is
+    /// `largest`: r of wgpu, Vulkan and `glPolygonOffset`, a `DepthBias` of 1 in Direct3D.
     ///
-    /// In fixed point of n bits a unit is 2⁻ⁿ in Direct3D, a hair less than a step of the format, and a Vulkan driver may take
-    /// twice that (Mesa's software driver takes two steps). In floating point it is 2^(e − 23) with e the exponent of `largest`:
-    /// below 1, where depth is stored, at most 2⁻²⁴, and next to nothing near 0.
+    /// In fixed point of n bits a unit is 2⁻ⁿ in Direct3D, a hair less than a step of the format, and a Vulkan driver may
+    /// take twice that (Mesa's software driver takes two steps). In floating point it is 2^(e − 23) with e the exponent
+    /// of `largest`: below 1, where depth is stored, at most 2⁻²⁴, and next to nothing near 0.
     ///
     /// ```
     /// use shadowfit::DepthFormat;

@@ -55,9 +55,9 @@ enum Towards {
 impl ReceiverOffset {
     /// Moves receivers towards the light by `distance` world units.
     ///
-    /// Local lights have no parallel rays, and no matrix moves all receivers by one distance: every receiver is moved by at least
-    /// so much, and those nearest to the light and farthest from it, on the axis of the map, by just so much. None is moved by
-    /// more than half of the nearest receiver's distance.
+    /// Local lights have no parallel rays, and no matrix moves all receivers by one distance: every receiver is moved by
+    /// at least so much, and those nearest to the light and farthest from it, on the axis of the map, by just so much.
+    /// None is moved by more than half of the nearest receiver's distance.
     ///
     /// # Errors
     ///
@@ -80,9 +80,9 @@ impl ReceiverOffset {
     /// Moves receivers by a part of their distance to the light: to the homogeneous point X + `part` · l, with l as
     /// [`Light::homogeneous`](crate::Light::homogeneous) gives it.
     ///
-    /// Under a light at a position that is `part`/(1 + `part`) of the distance, which grows with distance as footprints of texels
-    /// do: the form for point lights and spots. A directional light has no distance, and its unit is the world's: there it is the
-    /// same as [`Self::world`].
+    /// Under a light at a position that is `part`/(1 + `part`) of the distance, which grows with distance as footprints
+    /// of texels do: the form for point lights and spots. A directional light has no distance, and its unit is the
+    /// world's: there it is the same as [`Self::world`].
     ///
     /// # Errors
     ///
@@ -146,7 +146,7 @@ impl ReceiverOffset {
         Self { towards: Towards::Relative(part), depth }
     }
 
-    /// What a distance from the light is multiplied by, and what is then taken off it, in parts of a depth range.
+    /// The factor of a distance from the light, and the part of the depth range that is then taken off it.
     pub(crate) fn of_distance(&self, range: f64) -> (f64, f64) {
         match self.towards {
             Towards::Relative(part) => (1.0 / (1.0 + part), self.depth),

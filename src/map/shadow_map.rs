@@ -99,9 +99,9 @@ pub struct Window {
     pub width: f64,
     /// Height, in the same units.
     pub height: f64,
-    /// The part of the width and height that is neither border nor needed by the receivers. It covers the rounding of the f32
-    /// matrix, and in a stable map it is room for all that the camera may turn to. It is also added where the receivers have no
-    /// extent of their own.
+    /// The part of the width and height that is neither border nor needed by the receivers. It covers the rounding of the
+    /// f32 matrix, and in a stable map it is room for all that the camera may turn to. It is also added where the
+    /// receivers have no extent of their own.
     pub padding: (f64, f64),
     /// The farthest that f32 moves any receiver across the map, in the matrix and in positions, in texels: thousandths of
     /// one in most uniform maps, more under a strong warp or far from the origin. The maximum over the receivers of
@@ -278,8 +278,8 @@ impl ShadowMap {
         matrix_from_rows(self.settings.clip().texture_rows_from_wgpu(self.rows_with(offset)))
     }
 
-    /// [`Self::receiver_matrix_with`] in clip space, in f32, for shaders that go on to texture coordinates themselves: depth is
-    /// that of clip space, from −1 to 1 where the settings say so.
+    /// [`Self::receiver_matrix_with`] in clip space, in f32, for shaders that go on to texture coordinates themselves:
+    /// depth is that of clip space, from −1 to 1 where the settings say so.
     ///
     /// ```
     #[doc = include_str!("../examples/sun.txt")]
@@ -315,8 +315,8 @@ impl ShadowMap {
         [x, y, offset.depth_row(z, w, self.light.homogeneous(), &self.along), w]
     }
 
-    /// Depth as a linear function of world space, for maps whose shader writes depth itself: the distance along the map's axis,
-    /// 0 at the first caster in the window and 1 at the last receiver (Kilgard 2000).
+    /// Depth as a linear function of world space, for maps whose shader writes depth itself: the distance along the map's
+    /// axis, 0 at the first caster in the window and 1 at the last receiver (Kilgard 2000).
     ///
     /// For positions relative to the eye, the plane's offset is its value at the eye.
     ///
@@ -360,8 +360,8 @@ impl ShadowMap {
         }
     }
 
-    /// The patch that one texel covers at a point in world space, across the light's ray, in world units; `None` outside of the
-    /// map (w ≤ 0).
+    /// The patch that one texel covers at a point in world space, across the light's ray, in world units; `None` outside
+    /// of the map (w ≤ 0).
     ///
     /// ```
     #[doc = include_str!("../examples/sun.txt")]
@@ -379,7 +379,7 @@ impl ShadowMap {
     /// rays. At 1 a texel is as large as a pixel; at 10 shadow edges are stairs of ten pixels. `None` outside of the map.
     ///
     /// On a surface a texel is stretched by 1/cos of the angle between its normal and the light, and a pixel by 1/cos of
-    /// that between its normal and the view, so that what is seen there is this times cos(view, normal)/cos(light, normal)
+    /// that between its normal and the view, so that on screen it is this times cos(view, normal)/cos(light, normal)
     /// (Stamminger & Drettakis 2002, §1.1; the words beside their formula call β the angle between light and normal, which
     /// contradicts it).
     ///
@@ -430,9 +430,9 @@ impl ShadowMap {
     /// The most that f32 changes the depth of a receiver at a point, in the matrix and in positions, where the depth range is
     /// 1: at most [`DepthSpan::rounding`], and no more than a constant over w.
     ///
-    /// Next to a local light, where w is small, it is hundreds of times what it is on the receivers. A receiver before the near
-    /// end of the range, as there are with lists of casters, may be off by its depth times that, and is lit. Infinite outside
-    /// of the map.
+    /// Next to a local light, where w is small, it is hundreds of times what it is on the receivers. A receiver before
+    /// the near end of the range, as there are with lists of casters, may be off by its depth times that, and is lit.
+    /// Infinite outside of the map.
     ///
     /// ```
     #[doc = include_str!("../examples/spot.txt")]
@@ -461,8 +461,8 @@ impl ShadowMap {
     /// The part of the depth range of a local light, 0 to 1, that is spent on points closer to it than 1/16 of the farthest
     /// receiver's axial distance. 0 for a directional light.
     ///
-    /// Depth is hyperbolic: with a near distance of a thousandth of the far one it is 0.985, and the receivers share the rest of
-    /// the steps. Next to 1 it says that the near distance costs precision;
+    /// Depth is hyperbolic: with a near distance of a thousandth of the far one it is 0.985, and the receivers share the
+    /// rest of the steps. Next to 1 it says that the near distance costs precision;
     /// [`Light::distance_to_casters`](crate::Light::distance_to_casters) says how large it may be.
     ///
     /// ```
@@ -481,8 +481,8 @@ impl ShadowMap {
         (near.recip() - beside.recip()) / (near.recip() - far.recip())
     }
 
-    /// The w that the matrices give a point in world space, but for rounding: positive in front of the light, and at most 1 at
-    /// receivers.
+    /// The w that the matrices give a point in world space, but for rounding: positive in front of the light, and at most
+    /// 1 at receivers.
     ///
     /// ```
     #[doc = include_str!("../examples/spot.txt")]
@@ -512,8 +512,9 @@ impl ShadowMap {
         depth_resolution(&self.rows, -self.light.direction_from(point), point, format, reversed)
     }
 
-    /// The same where a shader stores [`Self::linear_depth`] instead: one distance for all steps of a fixed-point format along a
-    /// ray, where hyperbolic depth has finer steps towards the light and coarser ones at the far end (Kilgard 2000).
+    /// The same where a shader stores [`Self::linear_depth`] instead: one distance for all steps of a fixed-point format
+    /// along a ray, where hyperbolic depth has finer steps towards the light and coarser ones at the far end (Kilgard
+    /// 2000).
     ///
     /// ```
     #[doc = include_str!("../examples/spot.txt")]
@@ -564,19 +565,20 @@ impl ShadowMap {
         self.warp_ratio
     }
 
-    /// How much of the warp is left out: the part of w, on the ray in the middle, that is the uniform map's. 0 for the warp as
-    /// it was proposed or found, 1 for no warp at all, and more where the paper's w is negative on that ray.
+    /// How much of the warp is left out: the part of w, on the ray in the middle, that is the uniform map's. 0 for the
+    /// warp as it was proposed or found, 1 for no warp at all, and more where the paper's w is negative on that ray.
     ///
-    /// A warp is weakened where f32 could not evaluate it, the more the larger the part of a texel that f32 takes in the uniform
-    /// map. The best map is weakened also where less of a warp gives finer texels and a smaller bias at the receivers.
+    /// A warp is weakened where f32 could not evaluate it, the more the larger the part of a texel that f32 takes in the
+    /// uniform map. The best map is weakened also where less of a warp gives finer texels and a smaller bias at the
+    /// receivers.
     #[must_use]
     pub const fn weakening(&self) -> f64 {
         self.weakening
     }
 
     /// Whether a receiver jumps by more than a 32nd of the map from the previous map to this one
-    /// ([`Focus::fit_warm`](crate::Focus::fit_warm)), because the local minimum that the search stayed with is gone, or is worse
-    /// than a closed form.
+    /// ([`Focus::fit_warm`](crate::Focus::fit_warm)), because the local minimum that the search stayed with is gone, or
+    /// is worse than a closed form.
     #[must_use]
     pub const fn jumped(&self) -> bool {
         self.jumped

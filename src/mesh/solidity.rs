@@ -76,8 +76,9 @@ impl Solidity {
     /// is loaded. Moving, turning and scaling a mesh changes nothing; mirroring it exchanges [`Self::Watertight`] and
     /// [`Self::Inverted`].
     ///
-    /// A part that crosses itself or another is classified by its winding. Every triangle counts: one that is there twice, or one
-    /// without area that hangs on an edge, leaves edges that do not close. Drop such triangles when a file is loaded.
+    /// A part that crosses itself or another is classified by its winding. Every triangle counts: one that is there
+    /// twice, or one without area that hangs on an edge, leaves edges that do not close. Drop such triangles when a file
+    /// is loaded.
     ///
     /// # Errors
     ///

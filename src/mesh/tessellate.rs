@@ -10,8 +10,9 @@ use std::collections::{BinaryHeap, HashMap};
 use std::ops::Range;
 use std::vec::Vec;
 
-/// Cuts triangles until a light at a position sees none of their edges under more than an angle, as a paraboloid map needs
-/// it: it draws straight edges where the mesh's are arcs ([`Paraboloid::largest_edge`](crate::omni::Paraboloid::largest_edge)).
+/// Cuts triangles until a light at a position sees none of their edges under more than an angle, as a paraboloid map
+/// needs it: it draws straight edges where the mesh's are arcs
+/// ([`Paraboloid::largest_edge`](crate::omni::Paraboloid::largest_edge)).
 ///
 /// ```text
 ///     ∗ light                       an edge is cut into as many parts as it takes, of equal angles from the
@@ -21,8 +22,8 @@ use std::vec::Vec;
 ///     ●---○----○-------● edge
 /// ```
 ///
-/// Inside of a triangle the longest edge by angle is halved until none is too long; the triangulation is Delaunay's throughout
-/// (by spade, with exact predicates).
+/// Inside of a triangle the longest edge by angle is halved until none is too long; the triangulation is Delaunay's
+/// throughout (by spade, with exact predicates).
 ///
 /// # Guarantees
 ///
@@ -81,8 +82,8 @@ impl Tessellator {
     /// The default limit on the number of resulting triangles, 2²⁰; see [`Self::with_limit`].
     pub const DEFAULT_LIMIT: u32 = 1 << 20;
 
-    /// A tessellator for a light at a position, the distance from it within which nothing casts, in world units, and the largest
-    /// angle of edges, in radians.
+    /// A tessellator for a light at a position, the distance from it within which nothing casts, in world units, and the
+    /// largest angle of edges, in radians.
     ///
     /// # Errors
     ///
@@ -209,7 +210,7 @@ impl Tessellator {
         Ok(cuts)
     }
 
-    /// Halves what is still too long: where an edge passes the light closely the cuts are rounded to wherever they can be.
+    /// Halves parts that are still too long: where an edge passes the light closely, rounding moves the cuts.
     fn halve(&self, edge: &Edge, part: Range<u64>, cuts: &mut Vec<u64>) -> Result<(), InputError> {
         let middle = part.start.midpoint(part.end);
         if middle == part.start || !self.is_long(edge.at(part.start), edge.at(part.end)) {
@@ -224,7 +225,7 @@ impl Tessellator {
     }
 }
 
-/// The steps that an edge is divided into. Places are whole numbers of them, so that what is said to be on an edge is on it
+/// The steps that an edge is divided into. Places are whole numbers of them, so that a vertex on an edge is on it
 /// exactly.
 const STEPS: u64 = 1 << 40;
 
@@ -388,7 +389,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Triangulates what is between the vertices on the edges of a triangle, with more vertices inside as needed.
+    /// Triangulates the inside of a triangle between the vertices on its edges, with more vertices inside as needed.
     fn fill(&mut self, corners: [u32; 3], vertices: Vec<Inside>, source: u32) -> Result<(), InputError> {
         // Coordinates are whole numbers and multiples of 2⁻¹², which spade takes.
         let too_many = |_| InputError::new("triangles", InputErrorKind::TooMany);

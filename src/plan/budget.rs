@@ -36,13 +36,13 @@ impl Budget {
 
     /// A budget with these settings: their warp, clip space and origin, and their size as the largest.
     ///
-    /// Maps are square and no larger than the shorter side of the settings ([`Settings::map_size`]). None has another warp than
-    /// theirs, and none is warped where they say [`Warp::Uniform`](crate::Warp::Uniform) or
-    /// [`Warp::Stable`](crate::Warp::Stable). The back-shift of [`Warp::Perspective`](crate::Warp::Perspective) is chosen by the
-    /// plan, and the border is as wide as the filter needs.
+    /// Maps are square and no larger than the shorter side of the settings ([`Settings::map_size`]). None has another
+    /// warp than theirs, and none is warped where they say [`Warp::Uniform`](crate::Warp::Uniform) or
+    /// [`Warp::Stable`](crate::Warp::Stable). The back-shift of [`Warp::Perspective`](crate::Warp::Perspective) is chosen
+    /// by the plan, and the border is as wide as the filter needs.
     ///
-    /// By default depth has 24 bits, the filter is the sampler's 2 × 2, a texel as large as a pixel is fine enough, and all maps
-    /// together may have as many texels as they need.
+    /// By default depth has 24 bits, the filter is the sampler's 2 × 2, a texel as large as a pixel is fine enough, and
+    /// all maps together may have as many texels as they need.
     ///
     /// ```
     /// use shadowfit::{DepthFormat, Filter, Settings, plan::Budget};
@@ -90,8 +90,8 @@ impl Budget {
         }
     }
 
-    /// The same budget with the most texels that the maps of all lights may have together. Maps are made smaller to keep to it,
-    /// the largest first, down to [`Self::SMALLEST_MAP`] a side.
+    /// The same budget with the most texels that the maps of all lights may have together. Maps are made smaller to keep
+    /// to it, the largest first, down to [`Self::SMALLEST_MAP`] a side.
     ///
     /// ```
     #[doc = include_str!("../examples/plan.txt")]

@@ -16,7 +16,7 @@ pub(super) struct Groups {
 }
 
 impl Groups {
-    /// Large enough that a scene of ten thousand boxes has few hundred groups, small enough that a group met by a lamp
+    /// Large enough that a scene of ten thousand boxes has few hundred groups, small enough that a group met by a point light
     /// is mostly met by it.
     const SIZE: usize = 32;
 

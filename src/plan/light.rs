@@ -28,7 +28,7 @@ const SAME: f64 = 1.01;
 const HIDDEN: f64 = 0.5;
 
 /// Texels up to so many pixels need no wider filter than the sampler's own, which blends from one to the next. A wider one
-/// hides no more steps there, and takes away what is as thin as it is wide.
+/// hides no more steps there, and loses shadows as thin as the filter is wide.
 const BLENDED: f64 = 1.0;
 
 /// A bias that moves shadows by no more pixels than this is hidden: a pixel at their edges is off by as much anyway.
@@ -86,8 +86,8 @@ impl Candidate {
         Self { kind: Kind::CubeFaces, projections, aliasing, mean: aliasing }
     }
 
-    /// How many times as large its texels are as those of another: the geometric mean of what they are at worst and of
-    /// what they are on the mean.
+    /// How many times as large its texels are as those of another: the geometric mean of the ratios at worst and on
+    /// the mean.
     ///
     /// The worst alone would not tell: a point where all maps are as coarse, as where the ground runs out of view, may be
     /// the worst of all, while everything else is twice as fine.
@@ -107,7 +107,7 @@ pub(super) struct Planner<'a> {
 }
 
 impl Planner<'_> {
-    /// Plans one light and appends what its passes draw to `casters`.
+    /// Plans one light and appends the casters of its passes to `casters`.
     pub(super) fn plan(&self, light: &Light, reach: &mut Reach, casters: &mut Vec<u32>) -> LightPlan {
         reach.gather(self.seen, self.objects, &loosened(light.planes().as_slice(), self.objects.extent));
         if reach.receivers.is_empty() {
@@ -340,8 +340,8 @@ impl MadeOf {
 
     /// The depth test for these casters, and whether by virtual samples, where a bias would move shadows by so many pixels.
     ///
-    /// An open mesh is stored in second depth too, and virtual samples tell it from its receivers where it is flat. Beside a bend
-    /// the plane goes on where the mesh does not, so that a curved one would need a bias all the same.
+    /// An open mesh is stored in second depth too, and virtual samples tell it from its receivers where it is flat.
+    /// Beside a bend the plane goes on where the mesh does not, so that a curved one would need a bias all the same.
     fn test(&self, kind: Kind, moved: f64, reasons: &mut Vec<Reason>) -> (DepthTest, bool) {
         let has_samples = !matches!(kind, Kind::Paraboloid | Kind::DualParaboloid);
         let (test, virtual_samples, why) = if self.points {

@@ -58,8 +58,8 @@ pub struct Object {
     pub surface: Surface,
     /// The number of triangles, or points, it is drawn with.
     pub triangles: u32,
-    /// A length that none of its edges exceeds, in world units; infinite if unknown. Paraboloid maps bend lines and need short
-    /// edges.
+    /// A length that none of its edges exceeds, in world units; infinite if unknown. Paraboloid maps bend lines and need
+    /// short edges.
     pub longest_edge: f32,
 }
 

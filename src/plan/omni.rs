@@ -42,7 +42,7 @@ impl Planner<'_> {
         }))
     }
 
-    /// Paraboloids or faces of a cube, for a light that stands among what it lights.
+    /// Paraboloids or cube faces, for a light that stands among its receivers.
     pub(super) fn omni(
         &self,
         focus: &Focus<'_>,
@@ -85,7 +85,7 @@ impl Planner<'_> {
         Ok(Some(Candidate::new(kind, projections, points)))
     }
 
-    /// The faces of a cube around a light, those that have something to show.
+    /// The cube faces that have receivers and casters.
     fn faces(&self, focus: &Focus<'_>, points: &[DVec3], size: u32, reach: &Reach) -> Option<Candidate> {
         let position = focus.light().position()?;
         let overlap = CubeFace::overlap(self.budget.filter().reach(), size, self.settings(size).border());
@@ -124,7 +124,7 @@ impl Planner<'_> {
 fn is_short(edge: f64, one: &Aabb, paraboloid: &Paraboloid) -> bool {
     let (min, max) = (one.min.as_dvec3(), one.max.as_dvec3());
     let position = paraboloid.position();
-    // What is nearer than the near distance does not cast.
+    // Nothing casts within the near distance.
     let distance = position.distance(position.clamp(min, max)).max(paraboloid.near());
     // Seen from a distance d to its nearest point, an edge of length e subtends at most 2 · atan(e/2d).
     let angle = 2.0 * angle::of_vector(2.0 * distance, edge);

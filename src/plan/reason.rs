@@ -37,7 +37,8 @@ pub enum Reason {
     WideFrustum(f64),
     /// One paraboloid: one hemisphere holds all receivers.
     OneHemisphere,
-    /// Two paraboloids: the edges of all casters are short enough for such maps, and two passes are fewer than those of a cube.
+    /// Two paraboloids: the edges of all casters are short enough for such maps, and two passes are fewer than those of a
+    /// cube.
     TwoHemispheres,
     /// No paraboloid: an edge of a caster is too long, seen from the light, for a map that bends lines.
     CoarseCasters,

@@ -30,7 +30,7 @@ impl Seen {
 /// The view between the nearest and the farthest point of the receivers in it.
 ///
 /// A warp follows the view from its near plane on, so that a near plane in the air before all that is seen wastes texels
-/// there. What a depth read-back would say (PSM §6) the boxes say as well, less exactly.
+/// there. The boxes stand in for a depth read-back (PSM §6), less exactly.
 fn narrowed(view: &View, visible: &[(u32, Aabb)], extent: DVec3) -> Option<View> {
     let forward = view.forward();
     let mut depths: Vec<(Interval, &Aabb)> = visible
@@ -61,8 +61,8 @@ fn narrowed(view: &View, visible: &[(u32, Aabb)], extent: DVec3) -> Option<View>
 /// How many receivers stand for all that a light can reach, see [`points`].
 const STANDING: usize = 8;
 
-/// Points of what is seen, where maps are compared: the corners of the largest receivers in the image, cut by the view
-/// and by what the light reaches.
+/// The points where maps are compared: the corners of the largest receivers in the image, cut by the view and by the
+/// light's reach.
 ///
 /// Corners of R alone would include those of the view in the air, where nobody looks.
 pub(super) fn points(focus: &Focus<'_>, receivers: &[Aabb]) -> Vec<DVec3> {

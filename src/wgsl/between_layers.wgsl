@@ -1,10 +1,10 @@
-// Whether a fragment, by its position in the framebuffer, lies behind what the first layer holds in its texel: all others are
+// Whether a fragment, by its position in the framebuffer, lies behind the first layer in its texel: all others are
 // to be discarded as the second layer is drawn. `parts` is the map's `comparison_tolerance`, which counts once for each of
 // the two depths.
 fn shadowfit_is_behind(
     first_layer: shadowfit_Map, layer: i32, fragment: vec4<f32>, parts: vec4<f32>, reversed: bool,
 ) -> bool {
-    // What a fragment has for w is 1/w.
+    // A fragment's w is 1/w.
     let gap = 2.0 * (parts.x + min(parts.y * fragment.w, parts.z));
     let behind = fragment.z - shadowfit_stored(first_layer, layer, vec2<i32>(fragment.xy));
     return select(behind, -behind, reversed) > gap;

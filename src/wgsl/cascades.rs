@@ -3,8 +3,8 @@
 /// The cascade that a depth belongs to, and where in its map to look, see [`Cascades`](crate::cascades::Cascades).
 ///
 /// `shadowfit_Cascades` is a struct for a shader's own uniform or storage buffer, filled with
-/// [`CascadeUniform::to_bytes`](crate::cascades::CascadeUniform::to_bytes). With a matrix of it, [`PROJECT`](super::PROJECT) and the filters
-/// work as on any map, in an array and in an atlas alike.
+/// [`CascadeUniform::to_bytes`](crate::cascades::CascadeUniform::to_bytes). With a matrix of it,
+/// [`PROJECT`](super::PROJECT) and the filters work as on any map, in an array and in an atlas alike.
 ///
 /// ```wgsl
 /// struct shadowfit_Cascades {

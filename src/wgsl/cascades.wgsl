@@ -1,6 +1,6 @@
 // The maps of a view's cascades. Of eight depths or layers, four make a vector.
 struct shadowfit_Cascades {
-    // From positions, relative to what the maps take them relative to, to texture coordinates and the depth to compare.
+    // From positions, relative to the origin of the maps, to texture coordinates and the depth to compare.
     texture_from_origin: array<mat4x4<f32>, 8>,
     // The least and the largest texture coordinates inside the border of each map.
     inner: array<vec4<f32>, 8>,
@@ -24,7 +24,7 @@ fn shadowfit_cascade_at(far: array<vec4<f32>, 2>, depth: f32) -> i32 {
 fn shadowfit_cascade_blend(
     far: array<vec4<f32>, 2>, blend: array<vec4<f32>, 2>, cascade: i32, depth: f32,
 ) -> f32 {
-    // What an index that is no constant can look into.
+    // Variables, which an index that is no constant can look into.
     var ends = far;
     var begins = blend;
     let end = ends[cascade / 4][cascade % 4];
@@ -41,7 +41,7 @@ fn shadowfit_cascade_layer(layer: array<vec4<i32>, 2>, cascade: i32) -> i32 {
     return layers[cascade / 4][cascade % 4];
 }
 
-// A place in a map, moved to where its filter reads nothing of another one. What is visible lies there already.
+// A place in a map, moved to where its filter reads nothing of another one. Receivers lie there already.
 fn shadowfit_cascade_inside(inner: vec4<f32>, projected: vec3<f32>) -> vec3<f32> {
     return vec3(clamp(projected.xy, inner.xy, inner.zw), projected.z);
 }

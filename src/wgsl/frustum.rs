@@ -36,8 +36,8 @@ pub const MAP_ARRAY: &str = include_str!("map_array.wgsl");
 #[doc(alias = "percentage-closer filtering")]
 pub const FILTERS: &str = include_str!("filters.wgsl");
 
-/// Filters with virtual samples ([`crate::depth::TangentPlane`]), over 2 × 2 texels, blended, and over N × N: they need no bias
-/// on planes. They need [`FILTERS`] before them. `parts` is
+/// Filters with virtual samples ([`crate::depth::TangentPlane`]), over 2 × 2 texels, blended, and over N × N: they need
+/// no bias on planes. They need [`FILTERS`] before them. `parts` is
 /// [`ShadowMap::comparison_tolerance`](crate::ShadowMap::comparison_tolerance), from which the second function makes the
 /// tolerance that the others take; the normal is the triangle's, not a smooth one.
 ///
@@ -60,11 +60,12 @@ pub const VIRTUAL_SAMPLES: &str = include_str!("virtual_samples.wgsl");
 /// Depth between two layers ([`DepthTest::BetweenLayers`](crate::depth::DepthTest)), of the nearest texel (one tap) or N × N.
 /// They need [`FILTERS`] before them.
 ///
-/// The first function is for the fragments of the second pass, which draws the same triangles with the same vertex shader and
-/// matrix into a map of its own, with `first_layer` to read from: discard the fragments that it returns `false` for. The
-/// position must be `@invariant` in both passes. `parts` is
-/// [`ShadowMap::comparison_tolerance`](crate::ShadowMap::comparison_tolerance) for one texel, a reach of 0.5, which counts once
-/// for each of the two depths, so that neither the rounding to the format nor a second triangle in the same plane makes a layer.
+/// The first function is for the fragments of the second pass, which draws the same triangles with the same vertex shader
+/// and matrix into a map of its own, with `first_layer` to read from: discard the fragments that it returns `false` for.
+/// The position must be `@invariant` in both passes. `parts` is
+/// [`ShadowMap::comparison_tolerance`](crate::ShadowMap::comparison_tolerance) for one texel, a reach of 0.5, which
+/// counts once for each of the two depths, so that neither the rounding to the format nor a second triangle in the same
+/// plane makes a layer.
 ///
 /// ```wgsl
 /// fn shadowfit_is_behind(

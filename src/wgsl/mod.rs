@@ -20,8 +20,9 @@ mod validation;
 pub use cascades::CASCADES;
 pub use frustum::{BETWEEN_LAYERS, FILTERS, MAP, MAP_ARRAY, PROJECT, VIRTUAL_SAMPLES};
 
-/// Draws and reads paraboloid maps, see [`Paraboloid`](crate::omni::Paraboloid). `ShadowfitParaboloidVertex` can be the output
-/// of a vertex shader and the input of a fragment shader, as it is; the fragment shader writes the depth that it is given.
+/// Draws and reads paraboloid maps, see [`Paraboloid`](crate::omni::Paraboloid). `ShadowfitParaboloidVertex` can be the
+/// output of a vertex shader and the input of a fragment shader, as it is; the fragment shader writes the depth that it
+/// is given.
 ///
 /// ```wgsl
 /// struct ShadowfitParaboloidVertex { @builtin(position) position: vec4<f32>, @location(0) surface: vec4<f32> }
@@ -35,16 +36,16 @@ pub use frustum::{BETWEEN_LAYERS, FILTERS, MAP, MAP_ARRAY, PROJECT, VIRTUAL_SAMP
 /// ```
 pub const PARABOLOID: &str = include_str!("paraboloid.wgsl");
 
-/// Draws discs and balls as quads into a shadow map, each of its [`covering`](crate::depth::Splat::covering) size and of its own
-/// depth.
+/// Draws discs and balls as quads into a shadow map, each of its [`covering`](crate::depth::Splat::covering) size and of
+/// its own depth.
 ///
-/// - `shadowfit_disc_splat(shadow_from_world, centre, normal, radius, map_sides, corner)`: the clip position of a corner of
-///   a disc's rectangle, see [`ShadowMap::disc_splat`](crate::ShadowMap::disc_splat). `shadow_from_world` is
+/// - `shadowfit_disc_splat(clip_from_world, centre, normal, radius, map_sides, corner)`: the clip position of a corner of
+///   a disc's rectangle, see [`ShadowMap::disc_splat`](crate::ShadowMap::disc_splat). `clip_from_world` is
 ///   [`ShadowMap::caster_matrix`](crate::ShadowMap::caster_matrix), `centre`, a unit `normal` and `radius` are in the space
 ///   that it takes positions in, `map_sides` are the map's width and height as f32s, and `corner` has coordinates −1 or 1.
-/// - `shadowfit_ball_splat(shadow_from_world, centre, radius, map_sides, corner)`: the same of a ball, see
+/// - `shadowfit_ball_splat(clip_from_world, centre, radius, map_sides, corner)`: the same of a ball, see
 ///   [`ShadowMap::splat`](crate::ShadowMap::splat).
-/// - `shadowfit_splat_corner(shadow_from_world, centre, normal, radius, map_sides, corner)`: the same corner as
+/// - `shadowfit_splat_corner(clip_from_world, centre, normal, radius, map_sides, corner)`: the same corner as
 ///   `struct shadowfit_SplatCorner { clip: vec4<f32>, offset: vec2<f32> }`, of a ball with a normal of zero. A fragment
 ///   shader that gets `offset`, interpolated, and discards where it is longer than 1 draws discs and not rectangles, see
 ///   [`Splat`](crate::depth::Splat).

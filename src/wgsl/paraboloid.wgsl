@@ -1,9 +1,10 @@
-// Paraboloid maps: half of everything around a light in one map (Brabec, Annen & Seidel 2002).
+// Paraboloid maps: one hemisphere of a point light in one map (Brabec, Annen & Seidel 2002).
 //
-// `matrix` is Paraboloid::matrix, or for what reads the map Paraboloid::receiver_matrix; `clip_scale` and `texture_scale` are
-// what the methods of these names give. Positions are what the matrix takes: in world space, or relative to the eye.
+// `matrix` is Paraboloid::caster_matrix, or Paraboloid::receiver_matrix_with to read the map; `clip_scale` and
+// `texture_scale` are the results of the methods of these names. Positions are in world space, or relative to the origin of
+// the settings.
 
-// What the vertex shader that draws into the map gives, and its fragment shader takes.
+// The output of the vertex shader that draws into the map, and the input of its fragment shader.
 struct ShadowfitParaboloidVertex {
     // The clip position; w is 1. z is in the middle of nothing: depth is written by the fragment, and a triangle whose
     // corners are nearer or farther than the map's depths may well have them in between.
@@ -65,7 +66,7 @@ fn shadowfit_paraboloid_depth(
         // Nearer to the light than its near distance, where nothing casts.
         discard;
     }
-    // The least nearness of the plane within the reach of the bias: that of the place, less its slope, less what it curves.
+    // The least nearness of the plane within the reach of the bias: that of the place, less its slope, less its curvature.
     let slope = abs(dot(plane, shadowfit_paraboloid_turn(surface.xy, direction, across.xy)))
         + abs(dot(plane, shadowfit_paraboloid_turn(surface.xy, direction, down.xy)));
     let least = nearness - bias.y * (slope + 4.0 * bias.y * dot(across.xy, across.xy) * length(plane));
@@ -83,7 +84,7 @@ fn shadowfit_paraboloid_turn(place: vec2<f32>, direction: vec3<f32>, step: vec2<
     return (1.0 + direction.z) * (vec3(step, -along) - along * direction);
 }
 
-// For whatever reads the map: the texture coordinates, what the depth buffer holds for the position, and a last number that
+// For reading the map: the texture coordinates, the depth to compare for the position, and a last number that
 // is negative for positions in the other hemisphere.
 fn shadowfit_paraboloid_texture(
     matrix: mat4x4<f32>,

@@ -3,57 +3,56 @@
 // All functions give the clip position, with w = 1, of one corner of the rectangle that a disc or a ball just fits into
 // in the map, grown to a texel across and down where it is smaller. `corner` is (-1, -1), (1, -1), (-1, 1) or (1, 1):
 // four vertices make a quad, on either winding, so that no side may be culled. Positions are in the space that
-// `shadow_from_world` takes them in, and the result is in the clip space that it was made for.
+// `clip_from_world` takes them in, and the result is in the clip space that it was made for.
 //
 // A rectangle covers more than its disc. `shadowfit_splat_corner` gives the offset of the corner in the ellipse besides, for
 // a fragment shader that discards where that, interpolated, is longer than 1.
 //
-// What reaches a point with w <= 0, as next to a lamp, has no rectangle; its corners all fall on one place outside of the
-// clip volume, so that nothing is drawn.
+// A disc that reaches a point with w <= 0, as next to a point light, has no rectangle; its corners all fall on one place
+// outside of the clip volume, so that nothing is drawn.
 
 // A disc, across a unit normal. Its depth is that of its plane.
 fn shadowfit_disc_splat(
-    shadow_from_world: mat4x4<f32>,
+    clip_from_world: mat4x4<f32>,
     centre: vec3<f32>,
     normal: vec3<f32>,
     radius: f32,
     map_sides: vec2<f32>,
     corner: vec2<f32>,
 ) -> vec4<f32> {
-    return shadowfit_splat_corner(shadow_from_world, centre, normal, radius, map_sides, corner).clip;
+    return shadowfit_splat_corner(clip_from_world, centre, normal, radius, map_sides, corner).clip;
 }
 
 // A ball. Its depth is its centre's.
 fn shadowfit_ball_splat(
-    shadow_from_world: mat4x4<f32>,
+    clip_from_world: mat4x4<f32>,
     centre: vec3<f32>,
     radius: f32,
     map_sides: vec2<f32>,
     corner: vec2<f32>,
 ) -> vec4<f32> {
-    return shadowfit_disc_splat(shadow_from_world, centre, vec3(0.0), radius, map_sides, corner);
+    return shadowfit_disc_splat(clip_from_world, centre, vec3(0.0), radius, map_sides, corner);
 }
 
 // A corner of a rectangle.
 struct shadowfit_SplatCorner {
     // The clip position.
     clip: vec4<f32>,
-    // Where the corner lies in the ellipse that the disc or ball is in the map: what is interpolated of it to a fragment
-    // is longer than 1 outside.
+    // The corner's place in the ellipse that the disc or ball is in the map: interpolated, it is longer than 1 outside.
     offset: vec2<f32>,
 }
 
 // A disc's, or with a normal of zero a ball's.
 fn shadowfit_splat_corner(
-    shadow_from_world: mat4x4<f32>,
+    clip_from_world: mat4x4<f32>,
     centre: vec3<f32>,
     normal: vec3<f32>,
     radius: f32,
     map_sides: vec2<f32>,
     corner: vec2<f32>,
 ) -> shadowfit_SplatCorner {
-    let rows = transpose(shadow_from_world);
-    let clip = shadow_from_world * vec4(centre, 1.0);
+    let rows = transpose(clip_from_world);
+    let clip = clip_from_world * vec4(centre, 1.0);
     let place = clip.xyz / clip.w;
     // How x, y and z of the map, and w over w at the centre, change over a radius.
     let scale = radius / clip.w;

@@ -1,4 +1,4 @@
-// What a test with virtual samples says (Wang & Molnar 1994, Fig. 10).
+// The result of a test with virtual samples (Wang & Molnar 1994, Fig. 10).
 struct shadowfit_Sampled {
     // The share of light, 0 to 1.
     share: f32,
@@ -27,8 +27,8 @@ fn shadowfit_slopes(texture_from_origin: mat4x4<f32>, projected: vec3<f32>, norm
     return vec2(dot(normal, cross(z, v)), dot(normal, cross(u, z))) / bounded;
 }
 
-// What a comparison with the plane allows for at a position: `parts` is the map's `comparison_tolerance`, its constant, what
-// goes over w, the most of that, and what multiplies the slopes.
+// The rounding that a comparison with the plane allows for at a position. `parts` is the map's `comparison_tolerance`: its
+// constant, the part over w, the most of that, and the factor of the slopes.
 fn shadowfit_tolerance(
     map: shadowfit_Map, texture_from_origin: mat4x4<f32>, position: vec3<f32>, slopes: vec2<f32>, parts: vec4<f32>,
 ) -> f32 {

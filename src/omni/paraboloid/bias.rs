@@ -15,10 +15,10 @@ impl Paraboloid {
     /// The depth bias with which no plane has shadow acne in this map, for `shadowfit_paraboloid_depth`
     /// (`wgsl::PARABOLOID`), which adds it itself: a rasteriser's slopes are not those of the plane.
     ///
-    /// `reach` is as for [`ShadowMap::bias`](crate::ShadowMap::bias). The shader takes [`DepthBias::in_shader`], receivers take
-    /// [`Self::receiver_matrix_with`] with [`DepthBias::offset`]. The shader writes the farthest distance of the plane within the
-    /// reach, so that half of the slope of a [`ShadowMap`](crate::ShadowMap) suffices. `docs/lights-all-around.md` has the
-    /// derivation and what it assumes.
+    /// `reach` is as for [`ShadowMap::bias`](crate::ShadowMap::bias). The shader takes [`DepthBias::in_shader`],
+    /// receivers take [`Self::receiver_matrix_with`] with [`DepthBias::offset`]. The shader writes the farthest distance
+    /// of the plane within the reach, so that half of the slope of a [`ShadowMap`](crate::ShadowMap) suffices.
+    /// `docs/lights-all-around.md` has the derivation and what it assumes.
     ///
     /// # Errors
     ///
@@ -55,8 +55,8 @@ impl Paraboloid {
 
     /// The matrix to upload for testing receivers: [`Self::caster_matrix`] with a receiver offset in it.
     ///
-    /// Depth is distance, so that every kind of offset is exact for all receivers: [`ReceiverOffset::world`] moves each by just
-    /// that distance, [`ReceiverOffset::relative`] by just that part.
+    /// Depth is distance, so that every kind of offset is exact for all receivers: [`ReceiverOffset::world`] moves each
+    /// by just that distance, [`ReceiverOffset::relative`] by just that part.
     ///
     /// ```
     #[doc = include_str!("../../examples/room.txt")]
@@ -73,7 +73,7 @@ impl Paraboloid {
     #[must_use]
     pub fn receiver_matrix_with(&self, offset: &ReceiverOffset) -> Mat4 {
         let (part, nearer) = offset.of_distance(self.range());
-        // (u, v) do not change with the length of q. The last row holds what is taken off the distance.
+        // (u, v) do not change with the length of q. The last row holds the part that is taken off the distance.
         let mut matrix = DMat4::from_scale(DVec3::splat(part))
             * self.paraboloid_from_world()
             * DMat4::from_translation(self.origin());
@@ -81,9 +81,9 @@ impl Paraboloid {
         matrix.as_mat4()
     }
 
-    /// Peter-panning: how far behind a caster a receiver may be and still be lit, in world units along the light's ray through a
-    /// point on the caster, on a plane across `normal` (of any length), where the ray goes through the middle of a texel.
-    /// Infinite where no distance is so much larger.
+    /// Peter-panning: how far behind a caster a receiver may be and still be lit, in world units along the light's ray
+    /// through a point on the caster, on a plane across `normal` (of any length), where the ray goes through the middle
+    /// of a texel. Infinite where no distance is so much larger.
     ///
     /// ```
     #[doc = include_str!("../../examples/room.txt")]
@@ -105,9 +105,9 @@ impl Paraboloid {
         stored - distance + added * self.range()
     }
 
-    /// The slopes of a plane's distance from the light at a point of it, in world units: the change to the next texel across and
-    /// to the next one up. The normal may have any length. `None` where the light sees the plane from its edge or the
-    /// map has no place for the point.
+    /// The slopes of a plane's distance from the light at a point of it, in world units: the change to the next texel
+    /// across and to the next one up. The normal may have any length. `None` where the light sees the plane from its edge
+    /// or the map has no place for the point.
     ///
     /// ```
     #[doc = include_str!("../../examples/room.txt")]

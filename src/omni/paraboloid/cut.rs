@@ -10,8 +10,8 @@ use core::f64::consts::FRAC_PI_2;
 use glam::{DVec2, DVec3};
 
 impl Paraboloid {
-    /// The farthest, in texels, that a straight edge is drawn from its arc, if the light sees the edge under an angle in radians:
-    /// n/2 · (1 − cos(angle/2)), with n the diameter of the disc in texels.
+    /// The farthest, in texels, that a straight edge is drawn from its arc, if the light sees the edge under an angle in
+    /// radians: n/2 · (1 − cos(angle/2)), with n the diameter of the disc in texels.
     ///
     /// Each fragment of the edge is drawn no farther than that from the place of a point of the edge, for all points of the
     /// edge that are in the hemisphere, wherever its ends are. An edge along the rim gets there. Inside of a triangle of
@@ -47,8 +47,8 @@ impl Paraboloid {
         if square > 0.0 { (4.0 * angle::of_vector(cosine, sine)).min(FRAC_PI_2) } else { 0.0 }
     }
 
-    /// The largest error of depth along a straight edge from `a` to `b`, both in the hemisphere, in world units along the ray:
-    /// what a bias must cover besides the map's own rounding where depth is left to the rasteriser.
+    /// The largest error of depth along a straight edge from `a` to `b`, both in the hemisphere, in world units along the
+    /// ray: what a bias must cover besides the map's own rounding where depth is left to the rasteriser.
     ///
     /// An edge that the light sees face on, under the angle α at the distance r, is drawn too far away by at most
     /// r (1 − cos(α/2)). Where its ends are at different distances, (r₂ − r₁)(√h₂ − √h₁)/(√h₂ + √h₁) is added, with h = r + z

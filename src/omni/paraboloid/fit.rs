@@ -48,8 +48,8 @@ impl Paraboloids {
 }
 
 impl Focus<'_> {
-    /// Fits one or two paraboloid maps to a light at a position. A point light inside of its receivers gets two, with the world's
-    /// y axis between the hemispheres; for another axis see [`Self::paraboloids_about`].
+    /// Fits one or two paraboloid maps to a light at a position. A point light inside of its receivers gets two, with the
+    /// world's y axis between the hemispheres; for another axis see [`Self::paraboloids_about`].
     ///
     /// ```
     #[doc = include_str!("../../examples/room.txt")]
@@ -75,10 +75,10 @@ impl Focus<'_> {
     ///     R around the light            two maps, around `axis` and against it
     /// ```
     ///
-    /// The axis is fixed in the world: with one that followed the view, texels would move over what stands still, and shadow
-    /// edges would swim. Straight down is a good axis: the seam is then level with the light, and everything below a ceiling
-    /// light is in one map. Only for a light out of view, where a plane of the view decides, does the map turn with the camera,
-    /// for half of the cost.
+    /// The axis is fixed in the world: with one that followed the view, texels would move over what stands still, and
+    /// shadow edges would swim. Straight down is a good axis: the seam is then level with the light, and everything below
+    /// a ceiling light is in one map. Only for a light out of view, where a plane of the view decides, does the map turn
+    /// with the camera, for half of the cost.
     ///
     /// # Errors
     ///
@@ -108,7 +108,7 @@ impl Focus<'_> {
         }
         let Some(position) = self.light().position() else { return Paraboloids::Directional };
         let far = body.positions().map(|point| point.distance(position)).fold(0.0, f64::max);
-        // All that is visible may be nearer to the light than anything casts.
+        // All receivers may be nearer to the light than any caster.
         if far <= self.light().near() || self.caster_volume(FocusForm::ReceiverHull).is_empty() {
             return Paraboloids::Empty(Empty::NoCasters);
         }

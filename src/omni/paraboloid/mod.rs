@@ -84,8 +84,8 @@ pub struct Paraboloid {
 }
 
 impl Paraboloid {
-    /// The matrix to upload for drawing casters: from a position relative to [`Self::origin`] to
-    /// `q = (direction · r, near) / (far − near)`, with r the distance from the light and the direction in the frame of the map.
+    /// The matrix to upload for drawing casters: from a position relative to [`Self::origin`] to `q = (direction · r,
+    /// near) / (far − near)`, with r the distance from the light and the direction in the frame of the map.
     ///
     /// ```
     #[doc = include_str!("../../examples/room.txt")]
@@ -133,8 +133,8 @@ impl Paraboloid {
         Vec2::new(inner, if self.settings.clip().y == YAxis::Up { inner } else { -inner })
     }
 
-    /// The numbers from (u, v) and depth to texture space: factors for x and y, to which ½ is added, and a factor and a summand
-    /// that give the depth that the depth buffer holds.
+    /// The numbers from (u, v) and depth to texture space: factors for x and y, to which ½ is added, and a factor and a
+    /// summand that give the depth that the depth buffer holds.
     ///
     /// ```
     #[doc = include_str!("../../examples/room.txt")]
@@ -152,8 +152,8 @@ impl Paraboloid {
         Vec4::new(half, if up { half } else { -half }, factor, summand)
     }
 
-    /// The place (u, v, depth) of a point: (u, v) in the unit disc for the map's own hemisphere and outside of it for the other,
-    /// depth 0 at the near distance and 1 at the far one.
+    /// The place (u, v, depth) of a point: (u, v) in the unit disc for the map's own hemisphere and outside of it for the
+    /// other, depth 0 at the near distance and 1 at the far one.
     ///
     /// `None` where there is no direction or no place for it: at the light, and straight behind it.
     ///
@@ -201,8 +201,8 @@ impl Paraboloid {
         self.position + self.in_world(direction) * distance
     }
 
-    /// The plane through the light that bounds the hemisphere, in world space; its normal is the axis. Casters wholly behind it
-    /// need not be drawn.
+    /// The plane through the light that bounds the hemisphere, in world space; its normal is the axis. Casters wholly
+    /// behind it need not be drawn.
     ///
     /// ```
     #[doc = include_str!("../../examples/room.txt")]
@@ -318,8 +318,8 @@ impl Paraboloid {
         self.position
     }
 
-    /// The settings the map was fitted with. Warp and shift do not apply to a paraboloid map, and it is square: of settings that
-    /// are not, only the shorter side is used ([`Settings::map_size`]).
+    /// The settings the map was fitted with. Warp and shift do not apply to a paraboloid map, and it is square: of
+    /// settings that are not, only the shorter side is used ([`Settings::map_size`]).
     #[must_use]
     pub const fn settings(&self) -> &Settings {
         &self.settings

@@ -8,7 +8,7 @@ use glam::DVec3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ParaboloidRounding {
-    /// Across the map, in texels; infinite where f32 cannot tell the point from the light, or from what has no place.
+    /// Across the map, in texels; infinite where f32 cannot tell the point from the light, or from points without a place.
     #[cfg_attr(feature = "serde", serde(with = "crate::math::infinity"))]
     pub texels: f64,
     /// In depth, where the depth range is 1.
@@ -35,7 +35,7 @@ const PLACE: f64 = 7.0 * UNIT;
 /// Of depth, where it is 1 at most: turning it to another convention.
 const TURN: f64 = 2.0 * UNIT;
 
-/// Interpolation of what a fragment's distance is made of, relative: the division by the divisor, a few roundings of corners
+/// Interpolation of the terms of a fragment's distance, relative: the division by the divisor, a few roundings of corners
 /// up to twice as near, and the half dozen products and sums that the plane is made of.
 const INTERPOLATION: f64 = 32.0 * UNIT;
 
@@ -62,7 +62,7 @@ impl Paraboloid {
         let reach = distance + arm.z;
         let of_reach = 2.0 * moved + LENGTH * distance + UNIT * reach;
         let place = self.project(point).map_or(f64::INFINITY, |place| place.truncate().length());
-        // What is lost of h itself makes the quotient larger in turn.
+        // The error of h itself makes the quotient larger in turn.
         let left = reach - of_reach;
         let across = if left > 0.0 { (moved + place * of_reach) / left + PLACE * place } else { f64::INFINITY };
         ParaboloidRounding {
@@ -71,7 +71,7 @@ impl Paraboloid {
         }
     }
 
-    /// How far f32 can carry anything in the map's hemisphere, or in depth what the rasteriser interpolates for a fragment
+    /// The farthest that f32 moves points of the map's hemisphere, and depths that the rasteriser interpolates for a fragment
     /// shader, at distances from the light from `least` to `most`.
     pub(super) fn noise_between(&self, least: f64, most: f64) -> ParaboloidRounding {
         let moved = self.moved_within(least);
@@ -113,10 +113,10 @@ impl Paraboloid {
         DVec3::from([self.x_axis, self.y_axis, self.axis].map(of_row)).length()
     }
 
-    /// The same with a depth range that holds, in f32, what it holds, and what no closer to the light than its near
-    /// distance may cast on it; no shorter than [`QUIET`] says.
+    /// The same map with a depth range that holds, in f32, all receivers, and all casters no closer to the light than its
+    /// near distance; no shorter than [`QUIET`] says.
     ///
-    /// The rounding of a distance is convex over space, so that the vertices of what is visible decide.
+    /// The rounding of a distance is convex over space, so that the vertices of R decide.
     pub(super) fn padded(self, visible: impl Iterator<Item = DVec3>) -> Self {
         let rounding = visible.map(|point| self.of_distance(point)).fold(0.0, f64::max);
         let near = self.near - (2.0 * rounding).min(0.5 * self.near);
