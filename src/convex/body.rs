@@ -26,6 +26,8 @@ use glam::DVec3;
 /// - The body contains the exact one: planes stand outside of it by 96 ε of the magnitudes of their terms. A point inside by less
 ///   than that may be outside of the exact body.
 /// - A body is a few kilobytes in place and allocates nothing.
+#[doc(alias = "convex polyhedron")]
+#[doc(alias = "convex hull")]
 #[derive(Clone, Debug)]
 pub struct ConvexBody {
     positions: [DVec3; Polyhedron::MAX_VERTICES],

@@ -45,7 +45,7 @@ pub struct InputError {
     pub index: Option<usize>,
     /// The component of a vector, a box or a matrix: `"y"`, `"min.y"`, `"z_axis.w"`.
     pub component: Option<&'static str>,
-    /// What is wrong with it.
+    /// The kind of mistake.
     pub problem: InputErrorKind,
     /// The value that was refused.
     pub value: Option<f64>,

@@ -13,7 +13,7 @@ use crate::settings::fallback::WarpFallback;
 use crate::settings::{Settings, Warp};
 use crate::warp::homography::Homography;
 use crate::warp::rays::Rays;
-use crate::warp::rounding::{self, AWAY_FROM_LAMP, Rounding};
+use crate::warp::rounding::{self, AWAY_FROM_LIGHT, Rounding};
 use crate::warp::search::{self, Previous};
 use crate::warp::stable::Stable;
 use crate::warp::virtual_camera::VirtualCamera;
@@ -252,7 +252,7 @@ impl<'a> Fit<'a> {
         receivers: &Polyhedron,
     ) -> Rounding {
         // The least c of points beyond 1/16 of the farthest receiver's axial distance from a local light, whatever the warp.
-        let away_c = if self.rays.local { covered.ratio.min * along.max * AWAY_FROM_LAMP } else { covered.c.min };
+        let away_c = if self.rays.local { covered.ratio.min * along.max * AWAY_FROM_LIGHT } else { covered.c.min };
         let mut rounding = Rounding::new(map, &self.rays, self.origin, &covered.c, [least_c, away_c]);
         for point in receivers.positions() {
             rounding.include_visible(point, map.c_at(point));

@@ -13,7 +13,7 @@ use crate::math::bounds::{Interval, Rectangle};
 use crate::settings::fallback::WarpFallback;
 use crate::settings::{Origin, Settings};
 use crate::warp::rays::Rays;
-use crate::warp::rounding::{AWAY_FROM_LAMP, MapNoise};
+use crate::warp::rounding::{AWAY_FROM_LIGHT, MapNoise};
 use crate::warp::virtual_camera::VirtualCamera;
 use glam::{DMat4, DVec2, DVec3, Mat4};
 
@@ -477,7 +477,7 @@ impl ShadowMap {
         if self.light.position().is_none() || near >= far {
             return 0.0;
         }
-        let beside = (far * AWAY_FROM_LAMP).clamp(near, far);
+        let beside = (far * AWAY_FROM_LIGHT).clamp(near, far);
         (near.recip() - beside.recip()) / (near.recip() - far.recip())
     }
 

@@ -1,4 +1,4 @@
-//! The map from rays to the window, before the window is moved into the clip volume.
+//! The homography from the chart of rays to the window, before the window is scaled to the clip volume.
 
 use crate::convex::{Plane, matrix_from_rows};
 use crate::math::bounds::{Interval, Rectangle, most};
@@ -11,9 +11,9 @@ use glam::{DMat2, DMat4, DVec2, DVec3, DVec4};
 ///     u = a·X / c·X      v = b·X / c·X      z = e·X / c·X
 /// ```
 ///
-/// a and b vanish on the ray through the middle of what is visible and c is the uniform map's w there, where u and v
-/// grow by 1 along the unit vectors of a frame across that ray; they are isometric there if it is orthonormal. e·l < 0
-/// and c > 0 on everything visible: z grows away from the light in every class.
+/// a and b vanish on the ray through the middle of R, where c is the uniform map's w and u and v grow by 1 along the unit vectors of
+/// a frame across the ray: an isometry there if the frame is orthonormal. e·l < 0, and c > 0 on R: z grows away from the light in
+/// every class.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Homography {
     a: Plane,
@@ -22,11 +22,11 @@ pub(crate) struct Homography {
     e: Plane,
     /// The rows a, b, e, c of a matrix.
     pub(crate) rows: DMat4,
-    /// The middle of what is visible, on the chart.
+    /// The middle of R on the chart.
     middle: DVec2,
     /// From (u, v), next to the middle, to the chart.
     chart_from_window: DMat2,
-    /// How c grows with u and v there.
+    /// The gradient of c in u and v there.
     slope: DVec2,
 }
 
@@ -71,19 +71,17 @@ impl Homography {
         self.c.at(point)
     }
 
-    /// How much the uniform map's w changes where c is 1, from a texel to the next one across and to the next one down
-    /// together, in a window of so many texels across and down.
+    /// The change of the uniform map's w on c = 1 from a texel to the next, across and down together, in a window of `sides` texels.
     pub(crate) fn change_of_inverse_c(&self, window: &Rectangle, sides: DVec2) -> f64 {
-        // There w is 1 − slope · (u, v), as in `least_c`. Texels are counted by those across.
+        // w is 1 − slope · (u, v) there, as in `least_c`, in units of a texel across.
         self.slope.abs().dot(window.half * (sides.x / sides)) * 2.0 / sides.x
     }
 
-    /// The least c of anything in the window that is no nearer to the light than `near`.
+    /// The least c in the window at distances of at least `near` from the light.
     pub(crate) fn least_c(&self, rays: &Rays, window: &Rectangle, near: f64) -> f64 {
-        // c is 1 at the homogeneous point D = (across, w) of the ray through a corner of the window. A point at
-        // distance `near` from a light at a position, X = l + near · D/|D|, has c = near/|D|; a point that a
-        // directional light reaches, w = 1, has c = 1/w(D). |D| is convex over the window, and so is w(D), so that the
-        // corners decide.
+        // c is 1 at the homogeneous point D = (across, w) on the ray through a corner of the window. A point X = l + near · D/|D|, at
+        // distance `near` from a local light, has c = near/|D|; under a directional light c = 1/w(D) where w = 1. |D| and w(D) are
+        // convex over the window, so that the corners decide.
         let farthest = window.corners().map(|corner| {
             let w = 1.0 - self.slope.dot(corner);
             let across = self.middle * w + self.chart_from_window * corner;
@@ -92,8 +90,7 @@ impl Homography {
         farthest.into_iter().fold(f64::MIN_POSITIVE, most).recip()
     }
 
-    /// The planes that bound the window, cut off what is deeper than `last` and, at the end of the list, what has less than
-    /// the least c; inside ≥ 0.
+    /// The planes of the window, of the depth `last` and, at the end, of the least c; inside ≥ 0.
     pub(crate) fn planes(&self, window: &Rectangle, last: f64, least_c: f64) -> [Plane; 6] {
         let (min, max) = (window.centre - window.half, window.centre + window.half);
         [
@@ -106,8 +103,7 @@ impl Homography {
         ]
     }
 
-    /// The rows of the matrix that takes the window and the depth range to clip space (x and y −1 to 1, depth 0 to 1),
-    /// with w multiplied by `scale`.
+    /// The rows of the matrix from the window and the depth range to clip space (x and y −1 to 1, depth 0 to 1), times `scale`.
     pub(crate) fn rows_to(&self, window: &Rectangle, depth: &Interval, scale: f64) -> [Plane; 4] {
         [
             (self.a - self.c * window.centre.x) * (scale / window.half.x),

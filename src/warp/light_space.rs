@@ -1,33 +1,31 @@
-//! The light-space perspective: LiSPSM.
+//! The light-space perspective warp: LiSPSM.
 
 use super::{MAX_RATIO, NEAREST, Proposed, Visible};
 use crate::input::view::Lens;
 use crate::settings::fallback::WarpFallback;
 use glam::{DVec2, DVec3};
 
-/// The light-space perspective warp (Wimmer, Scherzer & Purgathofer 2004): a perspective across the light, along the view as
-/// the light sees it, whose centre is a distance n before all that is visible.
+/// The light-space perspective warp (Wimmer, Scherzer & Purgathofer 2004): a perspective across the light, along the view as the
+/// light sees it, with its centre a distance n in front of R.
 ///
-/// Theirs is, with γ the angle between light and view, z_n the near distance and d the length of what is visible along the
-/// warp,
+/// In the paper, with γ the angle between light and view, z_n the near distance and d the length of R along the warp,
 ///
 /// ```text
 ///     n_opt = (z_n + √(z_n z_f)) / sin γ      z_f = z_n + d sin γ
 /// ```
 ///
-/// LinearDepth the warp, eye depth on a plane across the light grows by sin γ for each unit. Measured by that depth, h, no
-/// sine is left, and no pole: with R between h₀ and h₁,
+/// Along the warp, eye depth on a plane across the light grows by sin γ per unit. In terms of that depth h the sine cancels, and
+/// with it the pole: with R between h₀ and h₁,
 ///
 /// ```text
 ///     c = h − h₀ + z_n + √(z_n (z_n + h₁ − h₀))
 /// ```
 ///
-/// A light at a position is directional after its own perspective, as in their paper, and h is read off the plane through
-/// the middle of R: one formula holds for every class. As the light turns into the view h becomes constant, and c fades
-/// to the uniform map by itself.
+/// A local light is directional after its own perspective, as in the paper, with h taken on the plane through the middle of R: one
+/// formula serves every class. As the light turns into the view h becomes constant, and c fades to the uniform map.
 ///
-/// z_n is the least eye depth of R, not that of the near plane: what lies before all that is visible is worth no texel. Nor is it
-/// less than [`NEAREST`] of the largest: what lies there most often is air.
+/// z_n is the least eye depth of R, not the near plane's, and at least [`NEAREST`] of the largest: air in front of the receivers
+/// deserves no texels.
 ///
 /// # Errors
 ///
@@ -41,9 +39,9 @@ pub(crate) fn propose<P: Iterator<Item = DVec3> + Clone>(
     }
     let mut c = rays.depth_across(view, visible.along);
     let depth = visible.range(|ray| c.at(ray));
-    // Rounding may leave a point of R just before the near plane.
+    // Rounding may put a point of R just in front of the near plane.
     let near = visible.eye_depth.min.max(view.near()).max(NEAREST * visible.eye_depth.max);
-    // A vector's square root is there without the standard library too.
+    // The square root of a vector is available without the standard library.
     let geometric_mean = DVec2::splat(near * (near + depth.max - depth.min)).sqrt().x;
     c.constant += near + geometric_mean - depth.min;
     Ok(visible.weakened(&rays.covector(&c), MAX_RATIO).through_eye(visible))

@@ -22,7 +22,7 @@ use crate::math::bounds::{Interval, Rectangle, most};
 pub use crate::settings::Shift;
 use crate::warp::homography::Frame;
 use crate::warp::rays::{Functional, Rays};
-use crate::warp::rounding::{AWAY_FROM_LAMP, UNITS};
+use crate::warp::rounding::{AWAY_FROM_LIGHT, UNITS};
 pub use crate::warp::virtual_camera::{ClassKind, LightClass, NearCase, VirtualCamera, classify};
 use glam::{DVec2, DVec3, DVec4};
 pub(crate) use worth::Samples;
@@ -45,7 +45,7 @@ pub(crate) struct Visible<'a, P> {
     pub(crate) eye_depth: Interval,
     /// The origin of positions that the f32 matrix takes.
     pub(crate) origin: DVec3,
-    /// The length below which nothing is visible.
+    /// The length that is too small to see.
     pub(crate) least: f64,
     /// The least w that f32 needs.
     pub(crate) precision: Precision,
@@ -205,7 +205,7 @@ impl Precision {
         along: &Interval,
         sides: DVec2,
     ) -> Self {
-        let away = if rays.local { AWAY_FROM_LAMP * along.max } else { 1.0 };
+        let away = if rays.local { AWAY_FROM_LIGHT * along.max } else { 1.0 };
         let offset = DVec2::new(rays.u.at(origin), rays.v.at(origin)).length();
         let (mut reach, mut noise) = (0.0, 0.0);
         for point in points {

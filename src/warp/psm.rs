@@ -1,4 +1,4 @@
-//! The camera's own perspective: perspective shadow maps.
+//! The camera's perspective as warp: perspective shadow maps.
 
 use super::{MAX_RATIO, NEAREST, Proposed, Visible};
 use crate::convex::Plane;
@@ -6,8 +6,8 @@ use crate::math::bounds::{Interval, most};
 use crate::warp::virtual_camera::after_perspective;
 use glam::DVec3;
 
-/// The perspective warp: w as the light's own camera has it, which stands at λ and looks at the middle of the unit cube
-/// that the camera's perspective makes of its frustum (Stamminger & Drettakis 2002, §3.2).
+/// The perspective warp (Stamminger & Drettakis 2002, §3.2): w of a camera at the light's position λ after the view's perspective,
+/// looking at the middle of the unit cube that the frustum becomes.
 ///
 /// With the target at the origin of post-perspective space, g = −λ/|λ|, and the plane through the light across g,
 /// `c = λw·A(g) − (g·λ) C₃` with A(v) = v₀ C₀ + v₁ C₁ + v₂ C₂, becomes a polynomial in λ, times |λ|:
@@ -16,10 +16,9 @@ use glam::DVec3;
 ///     c = |λxyz|² C₃ − λw (λx C₀ + λy C₁ + λz C₂)
 /// ```
 ///
-/// It is finite for every class of light. It is C₃, the camera's own depth, for a light that becomes directional, and
-/// constant, the uniform map, for a light along the view. But it may vanish inside R: a light on the infinity plane
-/// stands 2n/(f − n) behind the far face of the cube, and corners of the cube lie behind it. Then it is weakened, see
-/// [`allowed_ratio`] and [`Visible::weakened`].
+/// It is finite for every class of light: C₃, the camera's own depth, for a light that becomes directional; constant, the uniform
+/// map, for a light along the view. It may vanish inside R (a light on the infinity plane stands 2n/(f − n) behind the far face of
+/// the cube, with corners of the cube behind it) and is then weakened, see [`allowed_ratio`] and [`Visible::weakened`].
 pub(crate) fn propose<P: Iterator<Item = DVec3> + Clone>(
     visible: &Visible<'_, P>,
     camera: &[Plane; 4],
@@ -33,13 +32,13 @@ pub(crate) fn propose<P: Iterator<Item = DVec3> + Clone>(
     visible.weakened(&polar, allowed_ratio(depth, visible))
 }
 
-/// By how much c may vary over R, against the uniform map's w: by no more than the camera's own depth does, from [`NEAREST`] of
-/// the largest on. A warp is there to undo the camera's perspective, and more than that only wastes texels. Where the light makes an angle θ with the view,
-/// depth varies along its rays as well, which no warp can follow, and the part above 1 is multiplied by sin⁴ θ: a light at
-/// right angles may use it all, a light along the view none. The exponent is a choice by measure (`cargo run --release
-/// -p testkit --bin survey`): with smaller ones more views are worse off than without a warp.
+/// The largest ratio of c/w over R, with w of the uniform map: that of the camera's own depth, from [`NEAREST`] of the largest on. A
+/// warp undoes the camera's perspective; more only wastes texels. Under a light at an angle θ to the view, depth varies along the
+/// rays too, which no warp can follow: the part of the ratio above 1 is multiplied by sin⁴ θ, so that a light along the view gets
+/// none. The exponent is a choice by measurement (`cargo run --release -p testkit --bin survey`): with smaller ones more views are
+/// coarser than without a warp.
 fn allowed_ratio<P: Iterator<Item = DVec3> + Clone>(depth: &Plane, visible: &Visible<'_, P>) -> f64 {
-    /// A view without perspective has ratio 1 and is left with the uniform map; the least above 1 keeps κ finite.
+    /// An orthographic view has the ratio 1 and gets the uniform map; slightly more keeps κ finite.
     const ALMOST_UNIFORM: f64 = 1.0 + 1.0 / 1024.0;
     let nearest = NEAREST * visible.points.clone().fold(0.0, |far, point| most(far, depth.at(point)));
     let (mut eye_depth, mut uniform) = (Interval::EMPTY, Interval::EMPTY);

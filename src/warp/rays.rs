@@ -1,4 +1,4 @@
-//! Rays as a plane of their own.
+//! The chart of a light's rays.
 
 use crate::convex::{Plane, Polyhedron};
 use crate::focus::Focus;
@@ -20,28 +20,26 @@ use glam::{DVec2, DVec3};
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rays {
-    /// Unit direction away from the light, in the middle of everything visible.
+    /// Unit direction away from the light, in the middle of R.
     pub(crate) axis: DVec3,
     u_axis: DVec3,
     v_axis: DVec3,
     pub(crate) u: Plane,
     pub(crate) v: Plane,
-    /// w, positive on everything visible.
+    /// w, positive on R.
     pub(crate) w: Plane,
-    /// Distance along `axis`, from the light or, when it is infinitely far away, from the eye, or the world's origin in a
-    /// stable map.
+    /// Distance along `axis` from a local light; under a directional light from the eye, or from the world's origin in a stable map.
     pub(crate) along: Plane,
-    /// Where `u`, `v` and `along` are zero.
+    /// The point where `u`, `v` and `along` are zero.
     origin: DVec3,
-    /// Whether the light is at a position.
+    /// Whether the light is local: at a position.
     pub(crate) local: bool,
-    /// What is visible and no nearer to the light than its near distance has at least this w.
+    /// The least w on R beyond the light's near distance.
     pub(crate) least_w: f64,
 }
 
 impl Rays {
-    /// The chart around what is visible, R, from which what is nearer to a light in a corner of it than its near distance is
-    /// cut off.
+    /// The chart around R. A corner of R at the light is cut off up to the light's near distance.
     pub(crate) fn new(focus: &Focus<'_>, visible: &mut Polyhedron) -> Result<Self, NoCone> {
         let view = focus.view();
         let (axis, margin) = match focus.light().position() {
@@ -52,8 +50,8 @@ impl Rays {
         Ok(Self::about([u_axis, v_axis, axis], view.eye(), focus.light(), margin))
     }
 
-    /// The chart with these axes, zero at the light or, when it is infinitely far away, at `origin`; everything visible is in
-    /// front of the light by `margin`, the least cosine.
+    /// The chart with these axes, zero at a local light or else at `origin`; `margin` is the least cosine between the axis and a ray
+    /// to R.
     pub(crate) fn about([u_axis, v_axis, axis]: [DVec3; 3], origin: DVec3, light: &Light, margin: f64) -> Self {
         let position = light.position();
         let origin = position.unwrap_or(origin);
@@ -79,16 +77,14 @@ impl Rays {
         (if self.local { across / w } else { across }, w)
     }
 
-    /// A point as (u, v, w): the ray through it is at (u, v)/w, where w > 0.
+    /// A point as (u, v, w); for w > 0 its ray is at (u, v)/w.
     pub(crate) fn homogeneous(&self, point: DVec3) -> DVec3 {
         DVec3::new(self.u.at(point), self.v.at(point), self.w.at(point))
     }
 
-    /// Depth before the eye of a view where each ray meets the plane across the axis at a distance `along` it: the view's
-    /// depth as the light sees it, a function on the chart.
-    ///
-    /// It is `C₃ − (C₃·l / ρ·l) ρ`, ρ that plane and C₃ the camera's depth row, over w on ρ: the one covector that vanishes
-    /// at the light and agrees with C₃ on ρ.
+    /// The view's depth as the light sees it, as a function on the chart: eye depth where a ray meets the plane ρ across the axis, at
+    /// the distance `along`. It is `C₃ − (C₃·l / ρ·l) ρ`, over w on ρ: the covector that vanishes at the light and equals the camera's
+    /// depth row C₃ on ρ.
     pub(crate) fn depth_across(&self, view: &View, along: f64) -> Functional {
         let forward = view.forward();
         let slope = DVec2::new(forward.dot(self.u_axis), forward.dot(self.v_axis));
@@ -96,19 +92,19 @@ impl Rays {
         Functional { slope: slope * scale, constant: view.depth(self.origin + self.axis * along) }
     }
 
-    /// A covector that vanishes at the light as a function on the chart.
+    /// The function on the chart of a covector that vanishes at the light.
     pub(crate) fn functional(&self, covector: &Plane) -> Functional {
         let constant = if self.local { covector.normal.dot(self.axis) } else { covector.at(self.origin) };
         let slope = DVec2::new(covector.normal.dot(self.u_axis), covector.normal.dot(self.v_axis));
         Functional { slope, constant }
     }
 
-    /// A function on the chart as the covector that it is.
+    /// The covector of a function on the chart.
     pub(crate) fn covector(&self, functional: &Functional) -> Plane {
         self.u * functional.slope.x + self.v * functional.slope.y + self.w * functional.constant
     }
 
-    /// The world-space direction away from the light of the chart's homogeneous point (`across`, `w`).
+    /// The world-space direction, away from the light, of the homogeneous chart point (`across`, `w`).
     pub(crate) fn direction(&self, across: DVec2, w: f64) -> DVec3 {
         self.u_axis * across.x + self.v_axis * across.y + self.axis * w
     }

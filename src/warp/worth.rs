@@ -1,4 +1,4 @@
-//! What a warp is worth where surfaces may be: its texels and its bias against the uniform map's.
+//! The score of a warp at sampled receivers: its texels and its bias against the uniform map's.
 
 use super::in_window;
 use crate::convex::Plane;
@@ -7,37 +7,37 @@ use crate::math::bounds::{Rectangle, least, most};
 use crate::warp::rays::{Functional, Rays};
 use glam::DVec2;
 
-/// Points of R that stand for the surfaces seen in it.
+/// Sample points of R that stand for its receivers.
 ///
-/// The vertices of R, which a window has to hold, are a poor sample: half of them lie on the near plane, in the air, where a warp is
-/// finest. Surfaces lie somewhere along the rays of the image, most often towards their ends: a few of these rays are cut by S and
-/// L, and three points taken of each, at the end and at a half and a quarter of the way. An oblique near plane cuts them too.
+/// The vertices of R are a poor sample: half of them lie on the near plane, in the air, where a warp is finest. Receivers lie along
+/// the lines of sight, most often towards their ends. A few of these are clipped to R, with samples at the end, at half and at a
+/// quarter of the way.
 pub(crate) struct Samples {
     samples: [Sample; Self::ACROSS * Self::DOWN * Self::DEPTHS.len()],
     len: usize,
-    /// Texels of the map across and down.
+    /// The width and height of the map in texels.
     sides: DVec2,
     local: bool,
 }
 
-/// A point, as a ray of the light.
+/// A sample point on a ray of the light.
 #[derive(Clone, Copy)]
 struct Sample {
-    /// Its place on the chart.
+    /// The ray's place on the chart.
     ray: DVec2,
-    /// World units for a unit step on the chart.
+    /// World units per unit step on the chart.
     size: f64,
-    /// How far depth leans with w there, see [`Samples::cost`].
+    /// The tilt of depth with w, see [`Samples::cost`].
     tilt: f64,
-    /// What the uniform map costs.
+    /// The cost of the uniform map.
     uniform: f64,
-    /// What it counts for: less and less as it leaves R.
+    /// The weight: it fades as the line of sight leaves R.
     weight: f64,
 }
 
-/// What a texel's change of depth counts for beside its sides: 0.3 of how far behind a caster a shadow begins, which is 2.25 times that
-/// change with the sampler's 2 × 2 texels. Of all predictors of wrong pixels that were tried, the mean side of a texel and 0.3 of the
-/// bias goes with them best. The slope of the surface is taken to be 45°.
+/// The weight of a texel's change of depth against its sides: 0.3 of the bias, which is 2.25 times that change with the sampler's
+/// 2 × 2 texels. Of the predictors of pixel error that were tried, the mean side of a texel plus 0.3 of the bias correlates best. The
+/// slope of the surface is assumed to be 45°.
 const BIAS: f64 = 0.3 * 2.25;
 
 impl Samples {
@@ -45,8 +45,7 @@ impl Samples {
     const DOWN: usize = 2;
     const DEPTHS: [f64; 3] = [1.0, 0.5, 0.25];
 
-    /// Samples of R for maps of so many texels across and down, `window` the uniform map's and its zero depth at a distance
-    /// `along` along the axis.
+    /// Samples of R for maps of `sides` texels; the uniform map has the given window and zero depth at the distance `along`.
     pub(crate) fn new(focus: &Focus<'_>, rays: &Rays, window: &Rectangle, along: f64, sides: DVec2) -> Self {
         let none = Sample { ray: DVec2::ZERO, size: 0.0, tilt: 0.0, uniform: 0.0, weight: 0.0 };
         let mut all = Self {
@@ -66,7 +65,7 @@ impl Samples {
             let (mut near, mut far) = (view.near(), view.far());
             let mut cut = |plane: Plane| {
                 let (at, change) = (plane.at(from), plane.normal.dot(step));
-                // Where it vanishes the ray is inside for all depths or for none.
+                // Without change the line of sight is inside at all depths or at none.
                 let depth = -at / change;
                 if change > 0.0 {
                     near = most(near, depth);
@@ -101,12 +100,11 @@ impl Samples {
         all
     }
 
-    /// What a map with these rows on the chart, whose sides are at −1 and 1, costs at a point: the mean side of a texel and how far
-    /// behind a caster a shadow begins, in world units; infinite where w is not positive.
+    /// The cost at a point of a map with these rows on the chart and its window at −1 to 1: the mean side of a texel plus the bias, in
+    /// world units; infinite where w ≤ 0.
     ///
-    /// A step t of a texel on the chart changes depth along a ray by the slope of the surface times its length, and where w changes
-    /// by `tilt · (∇w · t)/w` besides, with tilt the distance from where depth is zero under a directional light and
-    /// w (w/zero − 1) under another.
+    /// A step t of a texel on the chart changes depth along a ray by the slope of the surface times its length and, where w varies,
+    /// by `tilt · (∇w · t)/w`. The tilt is the distance from zero depth under a directional light and w (w/zero − 1) under a local one.
     fn cost(&self, sample: &Sample, [x, y, w]: &[Functional; 3]) -> f64 {
         let Sample { ray, size, tilt, .. } = *sample;
         let at = w.at(ray);
@@ -124,9 +122,8 @@ impl Samples {
         if at > 0.0 && cost >= 0.0 { cost } else { f64::INFINITY }
     }
 
-    /// How a map with these rows on the chart, whose sides are at −1 and 1, compares with the uniform one: the mean of
-    /// (r − 1)/(r + 1), r the ratio of what they cost at a point, from −1 to 1 and less than 0 where it is better. It counts
-    /// halves and doubles alike.
+    /// The score of a map with these rows on the chart and its window at −1 to 1: the mean of (r − 1)/(r + 1), with r the ratio of its
+    /// cost to the uniform map's. It lies in [−1, 1], negative for better maps, and weighs halves and doubles alike.
     pub(crate) fn score(&self, rows: &[Functional; 3]) -> f64 {
         let (mut sum, mut weights) = (0.0, 0.0);
         for sample in &self.samples[..self.len] {

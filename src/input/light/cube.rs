@@ -85,7 +85,8 @@ impl CubeFace {
     /// `map_size` is that of the maps in texels, of the shorter side ([`Settings::map_size`](crate::Settings::map_size)), and
     /// `border` the texels around the receivers. At most [`Self::MAX_OVERLAP`], which falls short where a map has fewer than 40
     /// texels for each of `reach`; 0 for a `reach` that is negative or NaN. A warped map has no such bound: its texels at the seam
-    /// are as wide as the warp makes them. Where each face is visible as a whole, a fifth suffices. `docs/lights-all-around.md` has the derivation.
+    /// are as wide as the warp makes them. Where each face is in view as a whole, a fifth suffices. `docs/lights-all-around.md` has
+    /// the derivation.
     ///
     /// ```
     /// use shadowfit::{Filter, omni::CubeFace};

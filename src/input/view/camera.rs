@@ -1,4 +1,4 @@
-//! Cameras with their numbers by name.
+//! Cameras with named fields.
 
 use super::View;
 use crate::error::InputError;
@@ -23,11 +23,11 @@ use crate::error::InputError;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PerspectiveCamera {
-    /// Where it stands, in world space.
+    /// The position, in world space.
     pub eye: [f64; 3],
-    /// Where it looks, in world space, of any length.
+    /// The direction of the view, in world space, of any length.
     pub forward: [f64; 3],
-    /// What is up in its image, in world space, of any length and not along `forward`.
+    /// The up direction, in world space, of any length and not parallel to `forward`.
     pub up: [f64; 3],
     /// The full vertical field of view in radians.
     pub fov_y: f64,
@@ -70,11 +70,11 @@ impl PerspectiveCamera {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrthographicCamera {
-    /// Where depths are measured from, in world space.
+    /// The position, in world space: depths count from it.
     pub eye: [f64; 3],
-    /// Where it looks, in world space, of any length.
+    /// The direction of the view, in world space, of any length.
     pub forward: [f64; 3],
-    /// What is up in its image, in world space, of any length and not along `forward`.
+    /// The up direction, in world space, of any length and not parallel to `forward`.
     pub up: [f64; 3],
     /// Half the height of the image, in world units.
     pub half_height: f64,

@@ -1,4 +1,4 @@
-//! A map in the making: where visible points fall in its window, and how far a step goes there.
+//! A draft of a map: the places of receiver points in its window, and the footprint of steps there.
 
 use crate::convex::Polyhedron;
 use crate::input::view::View;
@@ -6,8 +6,8 @@ use crate::math::bounds::{Interval, Rectangle, least, most};
 use crate::warp::rays::{Functional, Rays};
 use glam::{DMat2, DVec2, DVec3};
 
-/// The squared length, in half heights of the image, of steps across the window: a quadratic form. Of steps of a texel it is
-/// the square of the footprint that [`ShadowMap::footprint`](crate::ShadowMap::footprint) tells.
+/// The squared length of steps across the window, in half heights of the image: a quadratic form. For steps of a texel it is the
+/// square of [`ShadowMap::footprint`](crate::ShadowMap::footprint).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
     pub(super) xx: f64,
@@ -16,7 +16,7 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    /// The same for steps that go `right` and `up` where they went (1, 0) and (0, 1).
+    /// The form in coordinates whose unit steps are `right` and `up` in the old ones.
     fn of_steps(&self, right: DVec2, up: DVec2) -> Self {
         let times =
             |step: DVec2| DVec2::new(self.xx * step.x + self.xy * step.y, self.xy * step.x + self.yy * step.y);
@@ -24,8 +24,8 @@ impl Stretch {
         Self { xx: along_right.dot(right), xy: along_right.dot(up), yy: times(up).dot(up) }
     }
 
-    /// The same of steps of texels in a map so many times as wide as high, but for a factor: to the next texels the steps are
-    /// (2/width, 0) and (0, 2/height) in the window, and times √(width · height)/2 they are (shape^-½, 0) and (0, shape^½).
+    /// The form for steps of texels, up to a factor, in a map with width/height = `shape`: steps to the next texels are (2/width, 0)
+    /// and (0, 2/height) in the window; times √(width · height)/2 they are (shape^-½, 0) and (0, shape^½).
     pub(super) fn of_texels(&self, shape: f64) -> Self {
         Self { xx: self.xx / shape, yy: self.yy * shape, ..*self }
     }
@@ -37,54 +37,53 @@ impl Stretch {
     }
 }
 
-/// A visible point.
+/// A point of R.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
-    /// Where it is in the window, whose sides are at −1 and 1.
+    /// The place in the window, from −1 to 1.
     pub(super) place: DVec2,
-    /// How far steps across the window go there.
+    /// The squared length of steps across the window there.
     pub(super) stretch: Stretch,
-    /// The larger eigenvalue of [`Stretch::of_texels`]: the longest side of a texel, squared, but for a factor.
+    /// The larger eigenvalue of [`Stretch::of_texels`]: the longest side of a texel, squared, up to a factor.
     pub(super) longest: f64,
     /// [`Stretch::difference`] of that.
     pub(super) difference: f64,
 }
 
-/// What a map is changed by, before its window is made to fit again: a place s in the window moves to
+/// A change of a map, before its window is fitted again. A place s in the window moves to
 ///
 /// ```text
 ///     axes · s / (1 + tilt · s)
 /// ```
 ///
-/// Every single-pass map of a light comes of every other by such changes: two numbers for c, and of the four of the axes
-/// two that turn and shear the window. The others scale it, and moving and scaling are left to its fit.
+/// Such changes connect all single-pass maps of a light: two numbers for c and, of the four of the axes, two that turn and shear the
+/// window. The other two scale it, which its fit undoes, as it does translation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Change {
     pub(super) axes: DMat2,
     pub(super) tilt: DVec2,
 }
 
-/// A map in the making.
+/// A draft of a map.
 #[derive(Clone, Debug)]
 pub(super) struct Draft {
     points: [Point; Polyhedron::MAX_VERTICES],
     len: usize,
-    /// How many times as wide as high the map is, in texels.
+    /// Width over height of the map, in texels.
     pub(super) shape: f64,
-    /// x, y and w of the place (x/w, y/w) in the window, as functions on the chart of rays.
+    /// The rows x, y and w of the place (x/w, y/w) in the window, as functions on the chart of rays.
     pub(super) rows: Rows,
-    /// The longest side of all texels, squared likewise: what the search is for the least of.
+    /// The longest side of all texels, squared likewise, which the search minimises.
     pub(super) worst: f64,
 }
 
 /// A homography of the chart: x, y and w.
 pub(crate) type Rows = [Functional; 3];
 
-/// A window is at least this part as wide as it is high, and the other way round: what is visible may have no extent of
-/// its own.
+/// The least ratio of the sides of a window, for R without extent.
 const THINNEST: f64 = 1.0 / 1_073_741_824.0;
 
-/// The least of w, over what it is in the middle of the window, that a change may leave.
+/// The least w after a change, relative to its value in the middle of the window.
 const LEAST_W: f64 = 1.0 / 1_048_576.0;
 
 impl Draft {
@@ -101,8 +100,7 @@ impl Draft {
         worst: 0.0,
     };
 
-    /// The chart itself, moved so that `middle` is in the middle, for maps so many times as wide as high: no map yet, as its
-    /// window is not made to fit.
+    /// The chart itself with `middle` at its origin, for maps of this width over height: not a map, as its window is not fitted.
     pub(super) fn chart(middle: DVec2, shape: f64) -> Self {
         let moved = |row: Functional, by: f64| Functional { constant: -by, ..row };
         Self {
@@ -112,12 +110,11 @@ impl Draft {
         }
     }
 
-    /// Puts a visible point on the chart, seen as if from no nearer than `nearest`; where there is no room left for it, it counts
-    /// for nothing.
+    /// Adds a point of R, seen from no nearer than `nearest`; it is ignored where there is no room left.
     pub(super) fn include(&mut self, rays: &Rays, view: &View, nearest: f64, position: DVec3) {
         let (ray, w) = rays.through(position);
-        // Across the ray of a light at a position, a step on the chart goes w far to the side, but only w/|(U, V, 1)|
-        // towards the chart's origin or away from it.
+        // Across the ray of a local light, a step on the chart has the length w to the side, but only w/|(U, V, 1)| towards the
+        // chart's origin or away from it.
         let (size, shorter) = if rays.local { (w, 1.0 / (1.0 + ray.length_squared())) } else { (1.0, 0.0) };
         let in_image = size / view.half_height(most(view.depth(position), nearest));
         let scale = in_image * in_image;
@@ -130,7 +127,7 @@ impl Draft {
         self.push(Point { place, stretch, longest: 0.0, difference: 0.0 });
     }
 
-    /// Puts a point of another draft here, likewise.
+    /// Adds a point of another draft, likewise.
     pub(super) fn push(&mut self, new: Point) {
         if let Some(point) = self.points.get_mut(self.len) {
             *point = new;
@@ -146,27 +143,27 @@ impl Draft {
         &self.points[..self.len]
     }
 
-    /// Becomes the map with the rows x, y and w made of the chart; false unless w is positive on all that is visible.
+    /// Sets the draft to the map with the rows x, y and w on the chart; false unless w > 0 on R.
     pub(super) fn set_rows(&mut self, chart: &Self, [x, y, w]: &Rows) -> bool {
         let middle = DVec2::new(-chart.rows[0].constant, -chart.rows[1].constant);
         let in_middle = w.at(middle);
         let tilt = w.slope / in_middle;
-        // What is left of a row where w times its value in the middle is taken off.
+        // A row without its part along w, which moves the middle.
         let axis = |row: &Functional| row.slope / in_middle - tilt * (row.at(middle) / in_middle);
         let axes = DMat2::from_cols(axis(x), axis(y)).transpose();
         in_middle > 0.0 && self.set_changed(chart, &Change { axes, tilt })
     }
 
-    /// Becomes `old` after a change, fitted to what is visible; false where w would not be positive on all of that, or the
-    /// window have no extent, and what it becomes is of no use.
+    /// Sets the draft to `old` after a change, fitted to R; false, with an invalid draft, where w would not be positive on R or the
+    /// window would have no extent.
     ///
-    /// A step in the new window is one of
+    /// A step in the new window is
     ///
     /// ```text
     ///     (1 + tilt · s) (1 + s tiltᵀ) axes⁻¹
     /// ```
     ///
-    /// in the old one, the inverse of the change's derivative at s, times the new window's half extents.
+    /// in the old one: the inverse of the change's derivative at s, times the half extents of the new window.
     pub(super) fn set_changed(&mut self, old: &Self, change: &Change) -> bool {
         let Change { axes, tilt } = *change;
         (self.len, self.shape) = (old.len, old.shape);
@@ -182,7 +179,7 @@ impl Draft {
         let window = Rectangle::over(&x, &y);
         let half = window.half.max(DVec2::splat(THINNEST * window.half.max_element()));
         let steps = axes.inverse() * DMat2::from_diagonal(half);
-        // Not so of what is not a number, either.
+        // NaN fails as well.
         if !(least_w > LEAST_W && half.min_element() > 0.0 && steps.is_finite() && tilt.is_finite()) {
             return false;
         }

@@ -1,12 +1,13 @@
-//! The best single matrix: a search over all warps and all windows of a light.
+//! The best single matrix: a search over all warps and windows of a light.
 //!
-//! Every single-pass map of a light is a homography of the chart of its rays (docs/design.md): two numbers choose c, two
-//! turn and shear the window, and its fit to what is visible is the rest. What is looked for is the least of the worst
-//! aliasing over the vertices of R, of which those in the air next to the eye count as if they stood farther away, and what is
-//! found is mixed with the uniform map by as much as it is worth at what may be seen ([`mixed`]). There are many local minima, one for each pair of edges of R that sides of the window
-//! may lie along, but few of them where the maximum over the points is taken softly. So the search starts softly from
-//! the best closed form, as it is and turned by 45°, and sharpens the better of the two. In a map that is not square a
-//! quarter turn makes another map: there are twice as many closed forms and beginnings, and the better half is sharpened.
+//! Every single-pass map of a light is a homography of the chart of its rays (`docs/design.md`, sections 2 and 6): two numbers choose
+//! c, two turn and shear the window, and the rest is its fit to R. The search minimises the worst aliasing over the vertices of R,
+//! with those in the air next to the eye counted as if they stood farther away. The result is mixed with the uniform map as far as
+//! that scores better at sampled receivers ([`mixed`]).
+//!
+//! There are many local minima, one for each pair of edges of R along sides of the window, but few of a soft maximum over the points.
+//! So the search starts softly from the best closed form, as it is and turned by 45°, and sharpens the better result. In a map that
+//! is not square a quarter turn makes another map: there are twice as many closed forms and starts, and the better half is sharpened.
 
 mod draft;
 mod refine;
@@ -23,15 +24,15 @@ use draft::{Change, Draft, Rows};
 use glam::{DMat2, DVec2, DVec3};
 use refine::Refinement;
 
-/// The map that was chosen.
+/// The chosen map.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Chosen {
     pub(crate) proposed: Proposed,
-    /// Whether there was a map before, and what is visible jumps from there to here.
+    /// Whether points of R jump from the previous map, if any, to this one.
     pub(crate) jumped: bool,
 }
 
-/// What a search needs of the map of the frame before.
+/// The previous frame's map, as far as the search needs it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Previous {
     /// World to clip, depth 0 to 1, y up.
@@ -41,9 +42,8 @@ pub(crate) struct Previous {
     pub(crate) mixed: f64,
 }
 
-/// Chooses the best map for what is visible, whose edges are given as well, from the closed forms on, of which the perspective
-/// one may be that of a camera moved back. `before` is the map of the frame before, if there is one;
-/// `samples` stand for what is seen.
+/// Chooses the best map for R, given by its vertices and edges, starting from the closed forms; `perspective` may be that of a camera
+/// moved back. `before` is the previous frame's map, if any; `samples` stand for the receivers.
 pub(crate) fn choose<P: Iterator<Item = DVec3> + Clone>(
     visible: &Visible<'_, P>,
     edges: impl Iterator<Item = (DVec3, DVec3)>,
@@ -70,7 +70,7 @@ pub(crate) fn choose<P: Iterator<Item = DVec3> + Clone>(
         };
     }
     let Some((closed, form)) = closed else {
-        // All that is visible is on one ray.
+        // All of R lies on one ray.
         return Chosen { proposed: Proposed::UNIFORM, jumped: false };
     };
     let already = before.map(|map| map.mixed);
@@ -82,10 +82,10 @@ pub(crate) fn choose<P: Iterator<Item = DVec3> + Clone>(
         if width == height { best } else { best.upright(middle) }
     });
 
-    // What f32 can evaluate of a map may be less than a closed form gives.
+    // Weakened for f32, a map may be worse than a closed form.
     let mut held = |[x, y, w]: Rows, already: f64| {
         let mut proposed = visible.weakened(&rays.covector(&w), MAX_RATIO);
-        // Next to a lamp f32 cannot evaluate even the uniform map as well, and a map would be weakened again in every frame.
+        // Next to a local light even the uniform map is short of f32 digits, and a map would be weakened again in every frame.
         if proposed.weakening <= already {
             proposed = Proposed { warp: w.scaled(w.at(middle).recip()), weakening: already, ..proposed };
         }
@@ -96,7 +96,7 @@ pub(crate) fn choose<P: Iterator<Item = DVec3> + Clone>(
     let stays = before.and_then(|(rows, weakening)| held(rows, weakening));
     let (_, proposed) = match (stays, moves) {
         (Some(stays), None) => stays,
-        // Where the worst hardly depends on the map, a search goes on and on for next to nothing, and texels crawl.
+        // Where the worst hardly depends on the map, the search would go on for next to nothing, and texels would crawl.
         (Some(stays), Some(moves)) if moves.0.worst > stays.0.worst * WORTH_MOVING => stays,
         (_, moves) => moves.unwrap_or((closed, form)),
     };
@@ -105,23 +105,21 @@ pub(crate) fn choose<P: Iterator<Item = DVec3> + Clone>(
     Chosen { proposed, jumped: drawn.is_some_and(|before| search.jumps(&before, &rows)) }
 }
 
-/// By how much of the uniform map's w a map is mixed to be worth most; not mixed at all is the first, and in the end there is no
-/// warp left.
+/// The weights of the uniform map's w that are tried in a mix: from no mixing to no warp.
 const MIXED: [f64; 6] = [0.0, 0.125, 0.25, 0.5, 1.0, f64::INFINITY];
 
-/// By how much a mixed map's score must be better than that of the map that was found, and by how much the uniform map's. The samples
-/// know nothing of what is seen: on scenes that were drawn and counted (`docs/warps.md`) differences of less said
-/// nothing of wrong pixels. Where f32 is short it needs not be better at all.
+/// The advantage in score that a mixed map needs over the map found, and the uniform map likewise. On scenes that were drawn and
+/// compared with ground truth (`docs/warps.md`) smaller differences did not predict pixel error. Where f32 is short, none is needed.
 const WORTH_MIXING: f64 = 1.0 / 32.0;
 const WORTH_NO_WARP: f64 = 1.0 / 12.0;
 
-/// A score that is better by less than this is not worth a jump.
+/// The advantage in score that justifies another mix than the previous frame's.
 const SAME_SCORE: f64 = 1.0 / 64.0;
 
-/// The best map mixed with the uniform one as is best for what may be seen, `before` as much as the frame before was.
+/// The map found, mixed with the uniform map to the best score; `before` is the mix of the previous frame.
 ///
-/// The search looks for the least worst texel over R, which is mostly air. How a map compares at samples of what may be seen
-/// ([`Visible::score`]) says how much of that warp is worth having.
+/// The search minimises the worst texel over R, which is mostly air; the score at sampled receivers ([`Visible::score`]) decides how
+/// much of that warp is kept.
 fn mixed<P: Iterator<Item = DVec3> + Clone>(
     visible: &Visible<'_, P>,
     proposed: Proposed,
@@ -160,20 +158,20 @@ fn rows_of(map: &Previous, rays: &Rays, middle: DVec2) -> Rows {
     [x, y, w].map(|row| row.scaled(scale))
 }
 
-/// The same before it was mixed, and by how much it had been weakened then; `None` where nothing was left of what was found.
+/// The rows of a map before it was mixed, and its weakening then; `None` where the mix left no warp.
 fn unmixed(map: &Previous, rays: &Rays, middle: DVec2) -> Option<(Rows, f64)> {
     if !map.mixed.is_finite() {
         return None;
     }
     let [x, y, w] = rows_of(map, rays, middle);
-    // The other two have a multiple of the mixed w in them, which is where the window is.
+    // x and y contain a multiple of the mixed w, the window's middle.
     let [x, y] = [x, y].map(|row| row.plus(&w.scaled(-row.at(middle))));
     let times = 1.0 + map.mixed;
     let w = Functional { slope: w.slope * times, constant: w.constant * times - map.mixed };
     Some(([x, y, w], (map.weakening * times - map.mixed).max(0.0)))
 }
 
-/// A homography, and the worst that it makes of what is visible.
+/// A homography and its worst texel over R.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     rows: Rows,
@@ -186,9 +184,8 @@ impl Candidate {
         other.filter(|other| other.worst < self.worst).unwrap_or(self)
     }
 
-    /// The same, or half a turn from it: beginnings a quarter turn apart and more may end at one map, either way up, and which
-    /// is left to roundings. The chart is turned in this one, at a place on it, by −22.5° to 157.5°, as far from those two
-    /// ends as beginnings can be.
+    /// The map itself or turned by 180°, whichever turns the chart by −22.5° to 157.5° at a place on it. Starts a quarter turn or more
+    /// apart may end at the same map either way up, which rounding would decide; the bounds are as far from all starts as possible.
     fn upright(self, place: DVec2) -> Self {
         // Of 67.5°.
         const MIDDLE: DVec2 = DVec2::new(0.382_683_432_365_089_8, 0.923_879_532_511_286_7);
@@ -200,15 +197,14 @@ impl Candidate {
         Self { rows: [x.scaled(-1.0), y.scaled(-1.0), w], ..self }
     }
 
-    /// Across which directions its window's sides run at a place on the chart; `None` where they run almost the same way, or the
-    /// window is almost a line. Then what is visible is hardly wider than a line, and any window is as good; and of what may
-    /// cast in a window that is a line, too, roundings would cut parts away.
+    /// The normals of the window's sides at a place on the chart; `None` where they are almost parallel or the window is almost a
+    /// line. R is then hardly wider than a line and any window is as good, while rounding would cut casters off in a thin one.
     fn frame(&self, place: DVec2) -> Option<Frame> {
         let [x, y, w] = &self.rows;
         let across = |row: &Functional| row.slope - w.slope * (row.at(place) / w.at(place));
         let (x, y) = (across(x), across(y));
         let (u, v) = (x.try_normalize()?, y.try_normalize()?);
-        // The window's sides are 1 from its middle.
+        // The window extends from −1 to 1.
         let thin = least(x.length(), y.length()) < LEAST_WIDTH * most(x.length(), y.length());
         (u.perp_dot(v).abs() >= LEAST_ANGLE && !thin).then_some(Frame { u, v })
     }
@@ -216,36 +212,36 @@ impl Candidate {
 
 /// The memory of a search.
 struct Search {
-    /// What is visible, on the chart: the vertices and, where not only they count, the middles of edges.
+    /// Points of R on the chart: the vertices and, for a local light, the middles of edges.
     chart: Draft,
     vertices: usize,
-    /// The vertices, and those of the others that steps look at.
+    /// The vertices, and the middles of edges that steps take into account.
     watched: Draft,
     /// A map, and the next one.
     draft: Draft,
     next: Draft,
 }
 
-/// How the window is turned for other beginnings: by 45° and, where maps are not square, by 90° and 135°.
+/// Turns of the window for further starts: by 45° and, in maps that are not square, by 90° and 135°.
 const TURNS: [DMat2; 3] = [
     DMat2::from_cols_array(&[FRAC_1_SQRT_2, FRAC_1_SQRT_2, -FRAC_1_SQRT_2, FRAC_1_SQRT_2]),
     DMat2::from_cols_array(&[0.0, 1.0, -1.0, 0.0]),
     DMat2::from_cols_array(&[-FRAC_1_SQRT_2, FRAC_1_SQRT_2, -FRAC_1_SQRT_2, -FRAC_1_SQRT_2]),
 ];
 
-/// The least sine of the angle between two sides of the window.
+/// The least sine of the angle between sides of the window.
 const LEAST_ANGLE: f64 = 1.0 / 64.0;
 
-/// The least width of a window, of its height, or the other way round.
+/// The least ratio of width and height of a window.
 const LEAST_WIDTH: f64 = 1.0 / 1_048_576.0;
 
-/// How far anything may move from one map to the next before that is a jump: a 32nd of the map.
+/// The largest move of a point from one map to the next that is no jump: a 32nd of the map.
 const JUMP: f64 = 2.0 / 32.0;
 
-/// The part of the worst, squared, that another map than the one of the frame before must get below.
+/// The squared worst, relative to the previous map's, that justifies a move.
 const WORTH_MOVING: f64 = 1.0 - 1.0 / 512.0;
 
-/// The part of the worst, squared, from which on a point is watched.
+/// The squared texel, relative to the worst, from which on a point is watched.
 const CLOSE: f64 = 0.5;
 
 impl Search {
@@ -259,21 +255,21 @@ impl Search {
         let mut chart = Draft::chart(middle, shape);
         visible.points.clone().for_each(|vertex| chart.include(rays, view, nearest, vertex));
         let (vertices, watched) = (chart.points().len(), chart.clone());
-        // The footprint of a texel is measured across the ray. Rays from a position slant towards both ends of an edge, and
-        // its long side may look shorter there than between them.
+        // Footprints are measured across the ray. Rays of a local light slant towards both ends of an edge, where the long side of a
+        // texel may look shorter than between them.
         if rays.local {
             edges.for_each(|(a, b)| chart.include(rays, view, nearest, (a + b) * 0.5));
         }
         Self { chart, vertices, watched, draft: Draft::EMPTY, next: Draft::EMPTY }
     }
 
-    /// A homography and its worst; `None` where w is not positive on all that is visible.
+    /// A homography with its worst; `None` unless w > 0 on R.
     fn measured(&mut self, rows: &Rows) -> Option<Candidate> {
         let Self { chart, draft, .. } = self;
         draft.set_rows(chart, rows).then_some(Candidate { rows: draft.rows, worst: draft.worst })
     }
 
-    /// The best map that is found from the best closed form.
+    /// The best map found from the best closed form.
     fn best(&mut self, closed: Candidate, effort: Effort) -> Candidate {
         let turns = if self.chart.shape == 1.0 { &TURNS[..1] } else { &TURNS };
         let count = match effort {
@@ -300,14 +296,14 @@ impl Search {
         })
     }
 
-    /// The map of the frame before, refined for this one.
+    /// The previous frame's map, refined for this frame.
     fn next_frame(&mut self, before: &Rows) -> Option<Candidate> {
         self.watch(before);
         let kept = self.refined(before, &Refinement::NEXT_FRAME)?;
         self.measured(&kept.rows)
     }
 
-    /// Whether anything visible jumps from one map to another.
+    /// Whether any point of R jumps from one map to another.
     fn jumps(&mut self, before: &Rows, after: &Rows) -> bool {
         let Self { chart, draft, next, .. } = self;
         if !(draft.set_rows(chart, before) && next.set_rows(chart, after)) {
@@ -324,7 +320,7 @@ impl Search {
         (draft.set_rows(chart, rows) && next.set_changed(draft, &turn)).then_some(next.rows)
     }
 
-    /// Watches those middles of edges at which a homography comes close to its worst.
+    /// Watches the middles of edges where a homography comes close to its worst.
     fn watch(&mut self, rows: &Rows) {
         let Self { chart, vertices, watched, draft, .. } = self;
         if chart.points().len() > *vertices && draft.set_rows(chart, rows) {

@@ -5,34 +5,33 @@ use super::step::{Sharpness, step};
 use super::{Candidate, Search};
 use core::mem;
 
-/// How a map is refined.
+/// A schedule of refinement.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Refinement {
-    /// From one sharpness to another.
+    /// The first and the last sharpness.
     from: Sharpness,
     to: Sharpness,
-    /// What holds the first step back.
+    /// The damping of the first step.
     damping: f64,
-    /// Steps at most.
+    /// The largest number of steps.
     steps: u32,
 }
 
-/// A step that takes off less of the power that it is judged by is none.
+/// The least gain of a successful step, as a part of the summed powers.
 const LEAST_GAIN: f64 = 1e-3;
-/// One that takes off less than this has gained what there was, and a sharper maximum is next.
+/// A gain below this exhausts the current sharpness: a sharper maximum is next.
 const ENOUGH: f64 = 0.25;
 
 impl Refinement {
     pub(super) const ROUGH: Self = Self { from: Sharpness(2), to: Sharpness(5), damping: 0.3, steps: 8 };
     pub(super) const SOFT: Self = Self { from: Sharpness(2), to: Sharpness(4), damping: 0.3, steps: 8 };
     pub(super) const SHARP: Self = Self { from: Sharpness(5), to: Sharpness(8), damping: 0.1, steps: 16 };
-    /// From the map of the frame before, which was sharp.
+    /// From the previous frame's map, which was sharp.
     pub(super) const NEXT_FRAME: Self = Self { from: Sharpness(7), to: Sharpness(8), damping: 0.1, steps: 8 };
 }
 
 impl Search {
-    /// The best map, as far as what is watched goes, on the way from the one with these rows; `None` where that is none
-    /// for what is visible.
+    /// The best map at the watched points, refined from the one with these rows; `None` where that is no map for R.
     pub(super) fn refined(&mut self, start: &Rows, refinement: &Refinement) -> Option<Candidate> {
         let (mut draft, mut next) = (&mut self.draft, &mut self.next);
         if !draft.set_rows(&self.watched, start) {

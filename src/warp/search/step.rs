@@ -5,8 +5,8 @@ use crate::math::bounds::most;
 use core::ops::Mul;
 use glam::{DMat2, DMat4, DVec2, DVec4};
 
-/// How sharply the worst point counts for more than others: aliasing counts to the power of 2ᵏ, so that the sum over all
-/// points, its root taken, is a smooth stand-in for the largest one, and is it for k → ∞.
+/// The sharpness k of a soft maximum: aliasing is raised to the power 2ᵏ, and the root of the sum over all points tends to the
+/// maximum as k → ∞.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Sharpness(pub(super) u32);
 
@@ -19,17 +19,17 @@ impl Sharpness {
         (1_u64 << self.0) as f64
     }
 
-    /// What a squared aliasing counts for beside the worst.
+    /// The weight of a squared aliasing, relative to the worst.
     fn weight(self, squared: f64) -> f64 {
         raised(squared, self.0 - 1)
     }
 
-    /// What points count for at sides of the window, in [0, 1], 1 at that side.
+    /// The weights of points for the sides of the window, from places in [0, 1], 1 at the side.
     fn weights_at_sides(self, places: DVec4) -> DVec4 {
         raised(places, self.0 + 1)
     }
 
-    /// How much a draft is better than another, for the 2ᵏ-th power of its stand-in: what part of that it takes off.
+    /// The gain of a draft over another: the relative decrease of the sum of 2ᵏ-th powers.
     pub(super) fn gain(self, next: &Draft, draft: &Draft) -> f64 {
         let sum =
             |of: &Draft| of.points().iter().map(|point| self.weight(point.longest / draft.worst)).sum::<f64>();
@@ -37,7 +37,7 @@ impl Sharpness {
     }
 }
 
-/// What counts for less than this counts for nothing.
+/// Smaller weights count as zero.
 const LEAST_WEIGHT: f64 = 1e-6;
 
 /// value^(2^k).
@@ -48,7 +48,7 @@ fn raised<T: Copy + Mul<Output = T>>(mut value: T, k: u32) -> T {
     value
 }
 
-/// A mean and a covariance, weighted.
+/// A weighted mean and covariance.
 #[derive(Clone, Copy)]
 struct Moments {
     weight: f64,
@@ -85,26 +85,24 @@ fn outer(a: DVec4, b: DVec4) -> DMat4 {
     DMat4::from_cols(a * b.x, a * b.y, a * b.z, a * b.w)
 }
 
-/// The change that a Newton step makes of the smooth stand-in for the worst aliasing, and that `damping` holds back.
+/// A damped Newton step on the soft maximum of aliasing.
 ///
-/// To first order in a change (t₁, t₂, h₁, h₂) the logarithm of the longest step at s, with the unit eigenvector v, grows
-/// by
+/// To first order in a change (t₁, t₂, h₁, h₂) the logarithm of the longest step at s, with the unit eigenvector v, grows by
 ///
 /// ```text
 ///     t · s + (v · s)(v · t) − (h₁ + h₂) v₁ v₂ + v₁² δ₁ + v₂² δ₂
 /// ```
 ///
-/// in a square map. In one r times as wide as high v counts texels, of which a part of the window has r times as many across
-/// as down. With s, t and h in coordinates in which texels are squares the same is true, and in those of the window it is
+/// in a square map. In a map r times as wide as high v counts texels, and the window has r times as many across as down. The formula
+/// holds with s, t and h in coordinates where texels are square, and in those of the window becomes
 ///
 /// ```text
 ///     t · s + t₁ (v₁² s₁ + v₁ v₂ s₂/r) + t₂ (v₁ v₂ s₁ r + v₂² s₂) − (h₁ r + h₂/r) v₁ v₂ + v₁² δ₁ + v₂² δ₂
 /// ```
 ///
-/// where the window's half extents grow by the parts δ₁ and δ₂: half of how far its sides move outwards, and a point at
-/// a side moves by `H s − (t · s) s`. A side is a maximum over points as well, and is made smooth likewise. Of second order
-/// only what the maxima make is taken in, which is all there is of it where as many points tie as there are ways to
-/// move, and is never negative.
+/// with δ₁ and δ₂ the relative growth of the window's half extents: half of the outward moves of its sides, where a point at a side
+/// moves by `H s − (t · s) s`. A side is a maximum over points as well, and is softened likewise. Of second order only the curvature
+/// of the soft maxima is kept: it is never negative, and all there is where as many points tie as there are degrees of freedom.
 pub(super) fn step(draft: &Draft, sharpness: Sharpness, damping: f64) -> Change {
     let (points, shape) = (draft.points(), draft.shape);
     let [width, height] = extents(points, sharpness);
@@ -116,7 +114,7 @@ pub(super) fn step(draft: &Draft, sharpness: Sharpness, damping: f64) -> Change 
         if weight < LEAST_WEIGHT {
             continue;
         }
-        // The eigenvector's v₁², v₁ v₂ and v₂². Where all steps go equally far it may be any, and this is their mean.
+        // v₁², v₁ v₂ and v₂² of the eigenvector. Where all steps have one length any vector is one, and this is their mean.
         let (difference, of_texels) = (most(*difference, f64::MIN_POSITIVE), stretch.of_texels(shape));
         let leaning = 0.25 * (of_texels.xx - of_texels.yy) / difference;
         let (xx, xy, yy) = (0.5 + leaning, 0.5 * of_texels.xy / difference, 0.5 - leaning);
@@ -132,23 +130,23 @@ pub(super) fn step(draft: &Draft, sharpness: Sharpness, damping: f64) -> Change 
         + height.curvature * (high / growth.weight)
         + DMat4::IDENTITY * damping;
     let step = curvature.inverse() * -growth.mean();
-    // Far from here the first order says nothing.
+    // Far away the first order does not hold.
     let step = step * (LONGEST_STEP / most(step.abs().max_element(), LONGEST_STEP));
     let axes = DMat2::from_cols(DVec2::new(1.0, step.w), DVec2::new(step.z, 1.0));
     Change { axes, tilt: DVec2::new(step.x, step.y) }
 }
 
-/// The longest step: w stays positive on all of the window.
+/// The longest step: w stays positive on the window.
 const LONGEST_STEP: f64 = 0.4;
 
-/// How an extent of the window, half of it, grows with a change.
+/// The growth of a half extent of the window with a change.
 struct Extent {
     growth: DVec4,
     curvature: DMat4,
 }
 
 impl Extent {
-    /// Of how two sides move outwards.
+    /// From the outward moves of two sides.
     fn between(sides: &[Moments; 2], sharpness: Sharpness) -> Self {
         let [one, other] = sides;
         Self {
@@ -158,7 +156,7 @@ impl Extent {
     }
 }
 
-/// The extents from left to right and from bottom to top.
+/// The horizontal and the vertical extent.
 fn extents(points: &[Point], sharpness: Sharpness) -> [Extent; 2] {
     let [mut right, mut left, mut top, mut bottom] = [Moments::NONE; 4];
     for Point { place: s, .. } in points {
