@@ -27,7 +27,7 @@ pub struct MapArgs {
     #[arg(long, value_name = "COUNT", value_parser = RangedU64ValueParser::<u32>::new().range(1..=Cascades::MAX as u64))]
     pub cascades: Vec<u32>,
 
-    /// Split scheme of the cascades: uniform, log, or blended:PART, where PART is the weight of the logarithmic
+    /// Split scheme of the cascades: uniform, log, or practical:PART, where PART is the weight of the logarithmic
     /// splits, 0 to 1
     #[arg(long, value_name = "SPLIT", default_value_t, requires = "cascades")]
     pub split: SplitArg,

@@ -186,7 +186,7 @@ mod tests {
             "--technique lispsm",
             "--cascades 0",
             "--cascades 9",
-            "--cascades 2 --split blended",
+            "--cascades 2 --split practical",
             "--split log",
             "--close-up 1,2",
             "--close-up 1,2,0",

@@ -35,7 +35,7 @@ impl fmt::Display for SplitArg {
         match self.0 {
             shadowfit::cascades::SplitScheme::Uniform => f.write_str("uniform"),
             shadowfit::cascades::SplitScheme::Logarithmic => f.write_str("log"),
-            shadowfit::cascades::SplitScheme::Practical(part) => write!(f, "blended:{part}"),
+            shadowfit::cascades::SplitScheme::Practical(part) => write!(f, "practical:{part}"),
             other => unreachable!("the command line has no word for {other:?}"),
         }
     }
@@ -46,11 +46,11 @@ impl FromStr for SplitArg {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let part = |text: &str| text.parse().ok().filter(|part| (0.0..=1.0).contains(part));
-        let split = match (text, text.strip_prefix("blended:").and_then(part)) {
+        let split = match (text, text.strip_prefix("practical:").and_then(part)) {
             ("uniform", _) => shadowfit::cascades::SplitScheme::Uniform,
             ("log", _) => shadowfit::cascades::SplitScheme::Logarithmic,
             (_, Some(part)) => shadowfit::cascades::SplitScheme::Practical(part),
-            _ => return Err("write uniform, log, or blended:PART with the logarithmic part, from 0 to 1".into()),
+            _ => return Err("write uniform, log, or practical:PART with the logarithmic part, from 0 to 1".into()),
         };
         Ok(Self(split))
     }
@@ -93,11 +93,11 @@ mod tests {
 
     #[test]
     fn splits_are_spelled_as_they_are_read() {
-        for text in ["uniform", "log", "blended:0.5", "blended:1"] {
+        for text in ["uniform", "log", "practical:0.5", "practical:1"] {
             let split: SplitArg = text.parse().expect(text);
             assert_eq!(split.to_string(), text);
         }
-        for wrong in ["", "blended", "blended:", "blended:1.5", "blended:NaN", "logarithmic"] {
+        for wrong in ["", "practical", "practical:", "practical:1.5", "practical:NaN", "logarithmic"] {
             assert!(wrong.parse::<SplitArg>().is_err(), "{wrong}");
         }
     }

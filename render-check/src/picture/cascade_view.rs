@@ -52,7 +52,7 @@ mod tests {
     use crate::verdict::fake::{self, LAMP_NEAR, SUN};
 
     #[test]
-    fn each_slice_has_a_colour_of_its_own() {
+    fn each_cascade_has_a_colour_of_its_own() {
         let mesh = fake::mesh();
         let truth = fake::truth(&SUN, &Tracer::new(&mesh).expect("it has triangles"));
         let [width, height] = truth.size();

@@ -186,7 +186,7 @@ fn a_close_up_shows_the_truth_and_every_map() {
 fn cascades_are_drawn_as_the_command_line_asks() {
     let directory = temporary();
     let arguments =
-        "--light sun:1,1,0 --technique uniform --technique stable --cascades 1 --cascades 3 --split blended:0.5";
+        "--light sun:1,1,0 --technique uniform --technique stable --cascades 1 --cascades 3 --split practical:0.5";
     let output = run_small(&arguments.split(' ').collect::<Vec<_>>(), directory.path());
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(String::from_utf8_lossy(&output.stdout).contains("stable 3 x 16"));
@@ -199,7 +199,7 @@ fn cascades_are_drawn_as_the_command_line_asks() {
         report["runs"].as_array().expect("a list").iter().map(|run| &run["cascading"]["count"]).collect();
     assert_eq!(counts, [1, 1, 3, 3]);
     let run = &report["runs"][2];
-    assert_eq!((&run["cascading"]["split"], &run["texels"]), (&"blended:0.5".into(), &(3 * 256).into()));
+    assert_eq!((&run["cascading"]["split"], &run["texels"]), (&"practical:0.5".into(), &(3 * 256).into()));
     assert!(
         run["limit"].as_f64() < run["predicted"].as_f64()
             && run["predicted"].as_f64() <= run["predicted_at_most"].as_f64()
