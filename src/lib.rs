@@ -18,6 +18,9 @@
 //!
 //! # A tour
 //!
+//! Examples share a set-up in hidden lines, which the button beside an example shows: a `view`, a light, a `scene`, their
+//! `focus`, `settings`, and the `map` that was fitted.
+//!
 //! ## Camera
 //!
 //! A [`View`] is the part of the world that the camera shows: from numbers with [`View::perspective`], from the camera's

@@ -94,10 +94,10 @@ pub(crate) fn away(bias: &DepthBias, unit: f64, slope: f64) -> f64 {
     f64::from(bias.constant.saturating_abs()) * unit + f64::from(bias.slope_scale.abs()) * slope
 }
 
-/// How far f32 carries places, in texels, in most maps: they have one slope for a format and a filter.
+/// How far f32 moves places in most maps, in texels: those maps share one slope for a format and a filter.
 const USUAL_PLACES: f64 = 1.0 / 64.0;
 
-/// How many times one slope is the next smaller one, where f32 carries places farther.
+/// The ratio of neighbouring slopes, for maps in which f32 moves places farther.
 const NEXT_SLOPE: f32 = 1.25;
 
 /// The first of `usual` and the slopes above it, each [`NEXT_SLOPE`] times the one before, that is no less than needed: each

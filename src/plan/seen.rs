@@ -29,7 +29,7 @@ impl Seen {
 
 /// The view between the nearest and the farthest point of the receivers in it.
 ///
-/// A warp follows the view from its near plane on, so that a near plane in the air before all that is seen wastes texels
+/// A warp follows the view from its near plane on, so that a near plane in the air before all receivers wastes texels
 /// there. The boxes stand in for a depth read-back (PSM §6), less exactly.
 fn narrowed(view: &View, visible: &[(u32, Aabb)], extent: DVec3) -> Option<View> {
     let forward = view.forward();

@@ -12,6 +12,7 @@ use glam::DVec3;
 ///
 /// A face holds the directions **away** from the light whose largest component is along the face's axis.
 /// [`Light::cube_face`](crate::Light::cube_face) is the part of a light within one of them.
+#[doc(alias = "cubemap")]
 #[doc(alias = "cube map")]
 #[doc(alias = "omnidirectional shadow map")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
