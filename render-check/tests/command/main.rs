@@ -163,7 +163,7 @@ fn a_best_map_on_the_way_stays_what_it_is() {
     let path = directory.path().join("out/chess-board/walk.json");
     let report: serde_json::Value = serde_json::from_slice(&fs::read(path).expect("written")).expect("sound JSON");
     let [cold, warm] = [0, 1].map(|i| &report[i]);
-    assert_eq!((&cold["warm"], &warm["warm"], &warm["switches"]), (&false.into(), &true.into(), &0.into()));
+    assert_eq!((&cold["warm"], &warm["warm"], &warm["jumps"]), (&false.into(), &true.into(), &0.into()));
     let changed = |map: &serde_json::Value| -> u64 {
         map["steps"].as_array().expect("a list").iter().filter_map(|step| step["changed"].as_u64()).sum()
     };

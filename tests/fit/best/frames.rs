@@ -63,30 +63,30 @@ fn settings() -> Settings {
 }
 
 /// Once at rest a map changes as little as the view does: by less than a thousandth of it for a millionth of a metre. What
-/// moves farther has switched.
+/// moves farther has jumped.
 #[test]
 fn a_map_at_rest_moves_with_the_view() {
     let mut random = StdRng::seed_from_u64(3);
-    let mut switches = 0;
+    let mut jumps = 0;
     for kind in Kind::ALL {
         for _ in 0..60 {
             let mut walk = Walk::drawn(&mut random, kind);
             let Some(map) = walk.settled() else { continue };
             walk.eye += DVec3::new(random.random_range(-1e-6..1e-6), 0.0, random.random_range(-1e-6..1e-6));
             let Some((next, moved)) = walk.next(&map) else { continue };
-            switches += u32::from(next.jumped());
+            jumps += u32::from(next.jumped());
             assert!(moved < 1e-3 || next.jumped(), "{kind:?} {} {}: {moved}", walk.eye, walk.forward);
         }
     }
-    assert!(switches <= 2, "{switches} switches for nothing");
+    assert!(jumps <= 2, "{jumps} jumps for nothing");
 }
 
-/// A map that does not say that it switched moves nothing by more than a 32nd of it, but for what its border and its padding
+/// A map that does not say that it jumped moves nothing by more than a 32nd of it, but for what its border and its padding
 /// change by; and few switch in steps of two centimetres.
 #[test]
 fn jumps_are_told() {
     let mut random = StdRng::seed_from_u64(4);
-    let (mut frames, mut switches) = (0, 0);
+    let (mut frames, mut jumps) = (0, 0);
     for kind in Kind::ALL {
         for _ in 0..8 {
             let mut walk = Walk::drawn(&mut random, kind);
@@ -96,7 +96,7 @@ fn jumps_are_told() {
                 walk.eye += ahead;
                 let Some((next, moved)) = walk.next(&map) else { break };
                 frames += 1;
-                switches += u32::from(next.jumped());
+                jumps += u32::from(next.jumped());
                 assert!(
                     moved < 1.0 / 32.0 + 0.005 || next.jumped(),
                     "{kind:?} {} {}: {moved}",
@@ -107,6 +107,6 @@ fn jumps_are_told() {
             }
         }
     }
-    println!("{switches} switches in {frames} frames");
-    assert!(switches * 100 <= frames, "{switches} switches in {frames} frames");
+    println!("{jumps} jumps in {frames} frames");
+    assert!(jumps * 100 <= frames, "{jumps} jumps in {frames} frames");
 }

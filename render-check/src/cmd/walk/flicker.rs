@@ -26,7 +26,7 @@ pub struct Flicker {
     /// Median CPU time of a fit, in microseconds.
     pub fit_us: f64,
     /// How often a warm-started fit jumped to another map.
-    pub switches: usize,
+    pub jumps: usize,
     /// The changes of each step; `None` where one of its two cameras has no map.
     pub steps: Vec<Option<Step>>,
 }
@@ -75,7 +75,7 @@ impl Flicker {
 /// A row for each kind of map of each light.
 pub(super) fn summary(flickers: &[Flicker]) -> Table {
     let header =
-        ["light", "map", "change in a step", "over a cut", "at worst", "steps without a map", "fit", "switches"];
+        ["light", "map", "change in a step", "over a cut", "at worst", "steps without a map", "fit", "jumps"];
     let mut table = table::new(header, 2..header.len());
     for flicker in flickers {
         table.add_row([
@@ -86,7 +86,7 @@ pub(super) fn summary(flickers: &[Flicker]) -> Table {
             percent(flicker.worst()),
             flicker.steps.iter().filter(|step| step.is_none()).count().to_string(),
             format!("{:.1} µs", flicker.fit_us),
-            if flicker.warm { flicker.switches.to_string() } else { "-".into() },
+            if flicker.warm { flicker.jumps.to_string() } else { "-".into() },
         ]);
     }
     table

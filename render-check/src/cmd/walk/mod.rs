@@ -109,13 +109,13 @@ struct Walker {
     /// The maps of the current step, if there are any.
     maps: Option<FittedMaps>,
     times: Vec<Duration>,
-    switches: usize,
+    jumps: usize,
     steps: Vec<Option<Step>>,
 }
 
 impl Walker {
     fn new(light: LightSpec, way: Way, maps: Option<FittedMaps>) -> Self {
-        Self { light, way, maps, times: Vec::new(), switches: 0, steps: Vec::new() }
+        Self { light, way, maps, times: Vec::new(), jumps: 0, steps: Vec::new() }
     }
 
     /// Moves on to the next camera.
@@ -126,7 +126,7 @@ impl Walker {
         if let Some(maps) = &next_maps {
             let settings = options.settings(next)?;
             self.times.push(median_time(FITS, || maps.fit_again(before, next, &settings)));
-            self.switches += usize::from(maps.jumped());
+            self.jumps += usize::from(maps.jumped());
         }
         self.steps.push(match (&self.maps, &next_maps) {
             (Some(these), Some(those)) => Some(compare((here, these), (next, those), again, light, options)?),
@@ -146,7 +146,7 @@ impl Walker {
             name: self.way.options.name(),
             warm: self.way.warm,
             fit_us: self.times.get(self.times.len() / 2).map_or(0.0, |time| time.as_secs_f64() * 1e6),
-            switches: self.switches,
+            jumps: self.jumps,
             steps: self.steps,
         }
     }
