@@ -155,7 +155,7 @@
 //!
 //! ```
 #![doc = include_str!("examples/sun.txt")]
-//! let bias = map.bias(DepthFormat::Unorm24, Filter::Pcf(3).reach())?;
+//! let bias = map.bias(DepthFormat::Unorm24, Filter::Hardware2x2.reach())?;
 //! assert!(bias.constant > 0 && bias.slope_scale > 0.0); // `wgpu::DepthBiasState`
 //! assert!(map.bias_distance(ground, up, &bias) < 0.5); // how far shadows detach, in world units
 //! # Ok::<(), shadowfit::InputError>(())
@@ -186,7 +186,7 @@
 //! | direction of light | points **towards** the light; axes of spots and hemispheres point away from it |
 //! | angles, distances | radians, world units |
 //! | clip space | the [`ClipSpace`] of the settings; wgpu's by default |
-//! | depth | grows away from the light, 0 to 1, test 'less or equal'; other ranges and reversed depth by the clip space |
+//! | depth | grows away from the light, 0 to 1, drawn with 'less', looked up with 'less or equal'; other ranges and reversed depth by the clip space |
 //! | numbers | f64 inside; f32 in uploaded matrices, bulk culling and lists of boxes |
 //!
 //! # Other libraries

@@ -181,7 +181,7 @@ fn bias() -> Result<String, InputError> {
     let depth = |row: f64| plane.depth_at(DVec2::new(plane.place().x, row / size)) - plane.depth();
     for (left, label, moved) in [
         (1.0, "no bias: shadow acne", 0.0),
-        (23.4, "the derived bias: none", f64::from(bias.slope_scale) * slope.abs() + bias.most),
+        (23.4, "derived bias: no acne", f64::from(bias.slope_scale) * slope.abs() + bias.most),
     ] {
         let at = |row: f64, depth: f64| DVec2::new(left + 2.2 * (row - first), 7.6 - 0.95 * depth / slope.abs());
         let last = first + f64::from(TEXELS);
