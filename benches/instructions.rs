@@ -12,6 +12,9 @@
 mod cases;
 
 use gungraun::{library_benchmark, library_benchmark_group, main};
+use shadowfit::cascades::{CascadeChoice, Cascades};
+use shadowfit::glam::DVec3;
+use shadowfit::seen::{Seen, SeenPoint};
 use shadowfit::{Focus, FocusForm, Light, Outcome, Scene, Settings, View, fit, focus::ConvexBody};
 use std::hint::black_box;
 
@@ -66,5 +69,47 @@ fn body_of_the_paper((view, light, scene, _): Case) -> ConvexBody {
     Focus::new(black_box(&view), black_box(&light), black_box(&scene)).caster_volume(FocusForm::ViewHull)
 }
 
-library_benchmark_group!(name = fits, benchmarks = [whole_fit, body_of_the_paper]);
+/// So many points of a ground and of walls, in the view of the benchmark.
+fn surfaces(count: usize) -> Vec<SeenPoint> {
+    let Ok(view) = cases::view() else { panic!("no valid view") };
+    let side = DVec3::Y.cross(view.forward()).normalize();
+    (0..count)
+        .map(|index| {
+            let (along, across) = ((index as f64 + 0.5) / count as f64, (index * 7 % 16) as f64 / 8.0 - 0.9);
+            let depth = 2.0 + 78.0 * along * along;
+            let place = view.eye() + view.forward() * depth + side * (0.4 * across * depth);
+            let is_wall = index % 3 == 0;
+            let normal = if is_wall { -side * across.signum() } else { DVec3::Y };
+            let position = if is_wall { place } else { DVec3::new(place.x, 0.0, place.z) };
+            SeenPoint { position, normal: Some(normal), pixels: 1.0 }
+        })
+        .collect()
+}
+
+type SeenCase = (Case, Vec<SeenPoint>);
+
+#[library_benchmark]
+#[bench::directional_64((case(0, 7), surfaces(64)))]
+#[bench::directional_256((case(0, 7), surfaces(256)))]
+#[bench::point_64((case(1, 7), surfaces(64)))]
+#[bench::spot_64((case(2, 7), surfaces(64)))]
+fn fit_to_seen(((view, light, scene, settings), points): SeenCase) -> Outcome {
+    let Ok(seen) = Seen::from_points(black_box(&points)) else { panic!("no valid points") };
+    Focus::new(black_box(&view), black_box(&light), black_box(&scene)).with_seen(&seen).fit(black_box(&settings))
+}
+
+#[library_benchmark]
+#[bench::directional_64((case(0, 7), surfaces(64)))]
+#[bench::directional_256((case(0, 7), surfaces(256)))]
+fn four_cascades_chosen(((view, light, scene, settings), points): SeenCase) -> usize {
+    let Ok(seen) = Seen::from_points(black_box(&points)) else { panic!("no valid points") };
+    let choice = CascadeChoice { most: 4, enough: 1e-3, overlap: 0.1 };
+    let cascades = Cascades::chosen(black_box(&view), black_box(&light), &scene, &seen, &choice, &settings);
+    cascades.map_or(0, |cascades| cascades.fit(&settings).maps().count())
+}
+
+library_benchmark_group!(
+    name = fits,
+    benchmarks = [whole_fit, body_of_the_paper, fit_to_seen, four_cascades_chosen]
+);
 main!(library_benchmark_groups = fits);

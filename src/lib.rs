@@ -25,7 +25,7 @@
 //!
 //! A [`View`] is the part of the world that the camera shows: from numbers with [`View::perspective`], from the camera's
 //! matrices with [`View::from_matrices`], which reads any [`ClipSpace`]. A far plane at infinity is fine. Where a depth
-//! read-back says what is on screen, [`View::narrowed`] spends no texels on the rest.
+//! read-back says what is on screen, [`Focus::with_seen`] spends no texels on the rest.
 //!
 //! ```
 #![doc = include_str!("examples/sun.txt")]
@@ -250,6 +250,7 @@ pub mod omni;
 mod parry;
 #[cfg(feature = "alloc")]
 pub mod plan;
+pub mod seen;
 mod settings;
 pub mod warp;
 #[cfg(feature = "wgsl")]
@@ -283,6 +284,8 @@ mod pages {
     struct LightsAllAround;
     #[doc = include_str!("../docs/migrating.md")]
     struct Migrating;
+    #[doc = include_str!("../docs/seen.md")]
+    struct Seen;
     #[cfg(feature = "alloc")]
     #[doc = include_str!("../docs/planner.md")]
     struct Planner;

@@ -135,6 +135,9 @@ impl<'a> SharedFocus<'a> {
     /// ```
     #[must_use]
     pub fn fit(&self, settings: &Settings) -> Outcome {
+        if let [one] = self.as_slice() {
+            return one.fit(settings);
+        }
         let mut visible = self.visible();
         if visible.is_empty() {
             return Outcome::Empty(Empty::NoReceivers);
@@ -143,7 +146,7 @@ impl<'a> SharedFocus<'a> {
             return Outcome::Empty(Empty::NoCasters);
         };
         let first = *self[0].view();
-        let around = (self.len > 1).then(|| self.ball(settings.image_height()));
+        let around = Some(self.ball(settings.image_height()));
         let regions = [self.region(|part| part.receivers), Some(casters)];
         let whole = self[0].standing_for(self.carrier(&visible), regions, around);
         let depths = match (settings.warp(), settings.shift()) {

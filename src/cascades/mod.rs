@@ -1,10 +1,12 @@
 //! Cascaded shadow maps: the view cut in depth, and a map fitted to each cascade.
 
+mod choice;
 mod layout;
 mod maps;
 mod split;
 mod uniform;
 
+pub use choice::CascadeChoice;
 pub use layout::{AtlasTile, CascadeLayout, TextureExtent};
 pub use maps::{CascadeMaps, CascadesReport};
 pub use split::{CascadeSplits, SplitScheme};
@@ -21,7 +23,7 @@ use crate::math::bounds::{Interval, most};
 use crate::math::list::list;
 use crate::settings::Settings;
 use glam::DVec3;
-use split::rounded;
+use split::{Depths, rounded};
 
 /// A view cut into cascades in depth, each with a [`Focus`] of its own (cascaded or parallel-split shadow maps: Zhang et al.
 /// 2006; Engel, *Cascaded Shadow Maps*, ShaderX5, 2006).
@@ -126,7 +128,11 @@ impl<'a> Cascades<'a> {
     ) -> Result<Self, InputError> {
         let overlap = check::part("overlap", overlap, 1.0)?;
         let cuts = cuts.depths(view, || visible_depths(&Focus::new(view, light, scene)))?;
+        Self::cut(view, light, scene, &cuts, overlap)
+    }
 
+    /// Cuts a view at these depths.
+    fn cut(view: &View, light: &Light, scene: &Scene<'a>, cuts: &Depths, overlap: f64) -> Result<Self, InputError> {
         // Made one after another: each begins where the one before has its next one blended in.
         let (mut near, mut begin) = (view.near(), view.near());
         let mut cut_to = |far: f64, from: f64| -> Result<Cascade<'a>, InputError> {

@@ -143,12 +143,12 @@ impl CascadeSplits<'_> {
 }
 
 impl Depths {
-    const fn none(near: f64) -> Self {
+    pub(super) const fn none(near: f64) -> Self {
         Self { depths: [0.0; Cascades::MAX - 1], len: 0, near }
     }
 
     /// Adds a cut, if it lies beyond those before.
-    fn push(&mut self, depth: f64) -> bool {
+    pub(super) fn push(&mut self, depth: f64) -> bool {
         let before = self.last().copied().unwrap_or(self.near);
         match self.depths.get_mut(self.len) {
             Some(slot) if depth > before => {
@@ -191,6 +191,18 @@ impl SplitScheme {
             (Lens::Perspective, Self::Practical(part)) => part * logarithmic() + (1.0 - part) * uniform(),
         }
     }
+}
+
+/// The parts of a range of depths between which cuts are chosen.
+pub(super) const PARTS: usize = 20;
+
+/// The ends of the parts, with one ratio in a perspective view.
+pub(super) fn parts(lens: Lens, near: f64, far: f64) -> [f64; PARTS + 1] {
+    let ratio = if far > near { root(root(far / near, 4), 5) } else { 1.0 };
+    core::array::from_fn(|index| match lens {
+        Lens::Perspective => near * power(ratio, index as u32),
+        Lens::Orthographic => near + (far - near) * (index as f64 / PARTS as f64),
+    })
 }
 
 /// As a shader compares it.

@@ -121,15 +121,6 @@ impl Polyhedron {
         self.vertices().map(|vertex| vertex.position)
     }
 
-    /// The edges by their ends, each edge once.
-    pub(crate) fn edges(&self) -> impl Iterator<Item = (DVec3, DVec3)> + Clone {
-        Bits(self.alive).flat_map(|slot| {
-            let vertex = &self.vertices[slot & LAST];
-            let others = vertex.neighbours.into_iter().map(usize::from).filter(move |other| *other > slot);
-            others.map(|other| (vertex.position, self.vertices[other & LAST].position))
-        })
-    }
-
     pub(crate) const fn is_empty(&self) -> bool {
         self.alive == 0
     }

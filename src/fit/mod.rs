@@ -1,5 +1,6 @@
 //! The fit: from a focus and settings to a map.
 
+mod cover;
 mod steps;
 
 use crate::convex::Polyhedron;
@@ -155,8 +156,8 @@ impl Focus<'_> {
     #[doc(alias = "temporal coherence")]
     #[must_use]
     pub fn fit_warm(&self, previous: &ShadowMap, settings: &Settings) -> Outcome {
-        let ShadowMap { rows, weakening, mixed, .. } = *previous;
-        self.fit_after(Some(Previous { rows, weakening, mixed }), settings)
+        let ShadowMap { rows, weakening, .. } = *previous;
+        self.fit_after(Some(Previous { rows, weakening }), settings)
     }
 
     fn fit_after(&self, previous: Option<Previous>, settings: &Settings) -> Outcome {

@@ -17,7 +17,7 @@ use crate::warp::rounding::{self, AWAY_FROM_LIGHT, Rounding};
 use crate::warp::search::{self, Previous};
 use crate::warp::stable::Stable;
 use crate::warp::virtual_camera::VirtualCamera;
-use crate::warp::{Precision, Proposed, Samples, Visible, light_space, psm, trapezoidal};
+use crate::warp::{Precision, Proposed, Visible, light_space, psm, trapezoidal};
 use glam::{DVec2, DVec3, DVec4};
 
 /// The window and the depth range are at least this part of half of the image's height at the receivers: a
@@ -62,7 +62,6 @@ struct Fit<'a> {
 
 /// The receivers as the uniform map and the camera see them.
 struct OnChart {
-    window: Rectangle,
     /// Their middle on the chart.
     middle: DVec2,
     /// Their distances along the axis.
@@ -178,7 +177,7 @@ impl<'a> Fit<'a> {
         }
         let window = Rectangle::over(&u, &v);
         let middle = self.stable.as_ref().map_or(window.centre, Stable::middle);
-        OnChart { window, middle, along, eye_depth }
+        OnChart { middle, along, eye_depth }
     }
 
     fn choose_warp(
@@ -209,10 +208,9 @@ impl<'a> Fit<'a> {
             Warp::LightSpace => light_space::propose(&visible()),
             Warp::Trapezoidal => trapezoidal::propose(&visible()),
             Warp::Best(effort) => {
-                let samples = Samples::new(self.focus, rays, &on_chart.window, along.middle(), settings.sides());
                 let visible = visible();
-                let (edges, perspective) = (receivers.edges(), psm::propose(&visible, &camera.rows(view)));
-                let chosen = search::choose(&visible, edges, perspective, effort, settings, previous, &samples);
+                let perspective = psm::propose(&visible, &camera.rows(view));
+                let chosen = search::choose(self.focus, &visible, perspective, effort, settings, previous);
                 jumped = chosen.jumped;
                 Ok(chosen.proposed)
             }
@@ -341,7 +339,7 @@ impl<'a> Fit<'a> {
         // −e·l.
         let to_light = if rays.local { zero } else { 1.0 };
         let noise = rounding.scaled_to(largest).in_map(map, &padded, &padded_depth, settings.sides(), to_light);
-        let Proposed { weakening, mixed, .. } = chosen.proposed.unwrap_or(Proposed::UNIFORM);
+        let Proposed { weakening, .. } = chosen.proposed.unwrap_or(Proposed::UNIFORM);
         ShadowMap {
             rows: map.rows_to(&padded, &padded_depth, largest.recip()),
             view: *view,
@@ -353,7 +351,6 @@ impl<'a> Fit<'a> {
             noise,
             along: linear,
             weakening,
-            mixed,
             fallback: chosen.proposed.err(),
             jumped: chosen.jumped,
             warp_ratio: covered.ratio.max / covered.ratio.min,

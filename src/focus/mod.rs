@@ -8,6 +8,8 @@ use crate::convex::{Bits, PlaneId, Polyhedron};
 pub(crate) mod cone;
 mod cull;
 mod narrow;
+mod standing;
+mod surfaces;
 pub(crate) mod surrounded;
 
 pub use crate::convex::{ConvexBody, Face, Plane};
@@ -15,8 +17,11 @@ use crate::focus::cone::leave_corner;
 use crate::input::light::{Light, LightPlanes};
 use crate::input::scene::{Bounds, Boxes, DAabb, Region, Scene};
 use crate::input::view::{FrustumPlanes, View};
+use crate::math::bounds::Interval;
+use crate::seen::Seen;
 pub use cull::Culler;
 use glam::{DVec3, DVec4};
+use standing::Standing;
 
 /// The two forms of the caster volume H.
 ///
@@ -107,11 +112,43 @@ pub struct Focus<'a> {
     pub(crate) caster_list: Option<Boxes<'a>>,
     /// Centre and radius of a ball around several views, where this focus stands for them.
     around: Option<(DVec3, f64)>,
+    /// The listed receivers that take most of the image.
+    standing: Standing,
+    /// The surfaces that the camera sees, where they are known.
+    pub(crate) seen: Option<Seen<'a>>,
+    /// Planes around the receivers in view, which bound R besides those of V, S and L.
+    cover: Cover,
+}
+
+/// Planes around the receivers in view.
+#[derive(Clone, Copy, Debug)]
+struct Cover {
+    planes: [Plane; Self::MAX],
+    len: usize,
+}
+
+impl Cover {
+    const MAX: usize = 14;
+    const NONE: Self = Self { planes: [Plane::ONE; Self::MAX], len: 0 };
+
+    fn as_slice(&self) -> &[Plane] {
+        &self.planes[..self.len]
+    }
+
+    fn push(&mut self, plane: Plane) {
+        if let Some(slot) = self.planes.get_mut(self.len) {
+            *slot = plane;
+            self.len += 1;
+        }
+    }
 }
 
 /// The first name for planes of V, or of a window. Planes of L are named after those of the region, and planes of a hull after
 /// those of L, which leaves as many names as possible.
 pub(crate) const VIEW_IDS: PlaneId = Region::MAX_PLANES + Light::MAX_PLANES as PlaneId;
+
+/// The first name for planes around what is seen.
+const COVER_IDS: PlaneId = VIEW_IDS + FrustumPlanes::MAX as PlaneId;
 
 impl<'a> Focus<'a> {
     /// Brings a view, a light and a scene together. For a scene of lists, bounds the receivers in view and within the light's
@@ -137,6 +174,9 @@ impl<'a> Focus<'a> {
             casters: None,
             caster_list: None,
             around: None,
+            standing: Standing::NONE,
+            seen: None,
+            cover: Cover::NONE,
         };
         match scene.bounds {
             Bounds::Nothing => {}
@@ -159,10 +199,40 @@ impl<'a> Focus<'a> {
     /// Bounds the receivers in view and within the light's reach, then the casters that can shadow them; `extent` holds the largest
     /// absolute coordinates of the casters.
     fn gather(&mut self, casters: &Boxes<'_>, receivers: &Boxes<'_>, extent: DVec3) {
-        let lit_view = || self.view_planes.iter().chain(self.light_planes.iter()).copied();
-        self.receivers = union(receivers, lit_view);
+        let (view, view_planes, light_planes) = (self.view, self.view_planes, self.light_planes);
+        let lit_view = || view_planes.iter().chain(light_planes.iter()).copied();
+        let mut depths = narrow::Depths::of(&view);
+        self.receivers = union(receivers, lit_view, |one| {
+            depths.visit_box(one.min, one.max);
+            self.standing.include(&view, one);
+        });
+        // A near plane in the air before the first receiver would waste texels there.
+        if let Some(depths) = depths.found() {
+            self.cover_depths(&depths);
+        }
         if let Some(hull) = self.hull_of_visible(extent) {
-            self.casters = union(casters, || hull.iter().chain(self.light_planes.iter()).copied());
+            self.casters = union(casters, || hull.iter().chain(light_planes.iter()).copied(), |_| ());
+        }
+    }
+
+    /// Removes all planes around what is seen.
+    pub(crate) const fn clear_cover(&mut self) {
+        self.cover = Cover::NONE;
+    }
+
+    /// Bounds R by a plane.
+    pub(crate) fn push_cover(&mut self, plane: Plane) {
+        self.cover.push(plane);
+    }
+
+    /// Bounds R by these depths before the eye.
+    pub(crate) fn cover_depths(&mut self, depths: &Interval) {
+        let depth = self.view.depth_row();
+        if depths.min > self.view.near() {
+            self.cover.push(depth - Plane::ONE * depths.min);
+        }
+        if depths.max < self.view.far() {
+            self.cover.push(Plane::ONE * depths.max - depth);
         }
     }
 
@@ -244,7 +314,8 @@ impl<'a> Focus<'a> {
         [receivers, casters]: [Option<Region<'a>>; 2],
         around: Option<(DVec3, f64)>,
     ) -> Self {
-        Self { view, receivers, casters, around, ..self.clone() }
+        let (standing, seen, cover) = (Standing::NONE, None, Cover::NONE);
+        Self { view, receivers, casters, around, standing, seen, cover, ..self.clone() }
     }
 
     /// A ball around V, or around all views that this focus stands for; `None` for an infinite far plane.
@@ -264,6 +335,7 @@ impl<'a> Focus<'a> {
             region.for_each_plane(|plane, _| each(plane));
         }
         self.light_planes.iter().for_each(|plane| each(*plane));
+        self.cover.as_slice().iter().for_each(|plane| each(*plane));
     }
 
     /// Sets a body to R and calls `each` with the planes that cut it.
@@ -283,6 +355,7 @@ impl<'a> Focus<'a> {
     ) {
         let extent = self.cut_lit(body, region, &mut each);
         clip_all(body, self.view_planes.as_slice(), VIEW_IDS, extent, &mut each);
+        clip_all(body, self.cover.as_slice(), COVER_IDS, extent, &mut each);
     }
 
     /// Sets a body to H and calls `each` with the planes that cut it.
@@ -349,14 +422,19 @@ pub(crate) fn clip_all(
     }
 }
 
-/// The bounds of all boxes that no plane excludes.
-fn union<P: Iterator<Item = Plane>>(boxes: &Boxes<'_>, planes: impl Fn() -> P) -> Option<Region<'static>> {
+/// The bounds of all boxes that no plane excludes; `each` is called with them.
+fn union<P: Iterator<Item = Plane>>(
+    boxes: &Boxes<'_>,
+    planes: impl Fn() -> P,
+    mut each: impl FnMut(DAabb),
+) -> Option<Region<'static>> {
     let (mut lowest, mut highest) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     boxes.for_each(|_, DAabb { min, max }| {
         let extent = min.abs().max(max.abs());
         let outside = |plane: Plane| plane.loosened(extent).at(farthest_corner(min, max, plane.normal)) < 0.0;
         if !planes().any(outside) {
             (lowest, highest) = (lowest.min(min), highest.max(max));
+            each(DAabb { min, max });
         }
     });
     lowest.is_finite().then_some(Region::Box { min: lowest, max: highest })

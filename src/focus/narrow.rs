@@ -27,28 +27,22 @@ impl View {
     /// ```
     #[must_use]
     pub fn narrowed_to(&self, scene: &Scene<'_>) -> Option<Self> {
-        let mut search =
-            Search { view: self, body: Polyhedron::EMPTY, found: Interval::EMPTY, extent: DVec3::ZERO };
+        let mut search = Depths::of(self);
         match scene.bounds {
             Bounds::Nothing => {}
             Bounds::Box { min, max } => search.visit_box(min, max),
             Bounds::Convex(body) => search.visit(&Region::Convex(body)),
             Bounds::Lists { receivers, .. } => receivers.for_each(|_, one| search.visit_box(one.min, one.max)),
         }
-        let Search { found, extent, .. } = search;
-        if found.min > found.max {
-            return None;
-        }
-        // Room for the rounding of depths and of the planes there.
-        let slack = 64.0 * f64::EPSILON * (self.forward().abs().dot(extent) + self.eye().abs().element_sum());
-        let (near, far) = (most(self.near(), found.min - slack), least(self.far(), found.max + slack));
+        let Interval { min, max } = search.found()?;
+        let (near, far) = (most(self.near(), min), least(self.far(), max));
         // Receivers of no extent in depth leave the view as it is.
         self.narrowed(near, far).ok().or(Some(*self))
     }
 }
 
 /// The search for the range of depths.
-struct Search<'a> {
+pub(super) struct Depths<'a> {
     view: &'a View,
     body: Polyhedron,
     found: Interval,
@@ -56,9 +50,20 @@ struct Search<'a> {
     extent: DVec3,
 }
 
-impl Search<'_> {
+impl<'a> Depths<'a> {
+    pub(super) const fn of(view: &'a View) -> Self {
+        Self { view, body: Polyhedron::EMPTY, found: Interval::EMPTY, extent: DVec3::ZERO }
+    }
+
+    /// The range found, with room for the rounding of depths and of planes there; `None` without receivers in view.
+    pub(super) fn found(&self) -> Option<Interval> {
+        let Self { view, found: Interval { min, max }, extent, .. } = *self;
+        let slack = 64.0 * f64::EPSILON * (view.forward().abs().dot(extent) + view.eye().abs().element_sum());
+        (min <= max).then_some(Interval { min: min - slack, max: max + slack })
+    }
+
     /// Includes a box, unless it cannot widen the range.
-    fn visit_box(&mut self, min: DVec3, max: DVec3) {
+    pub(super) fn visit_box(&mut self, min: DVec3, max: DVec3) {
         let forward = self.view.forward();
         let depth = |along| self.view.depth(farthest_corner(min, max, along));
         if depth(-forward) < self.found.min || depth(forward) > self.found.max {

@@ -10,8 +10,10 @@ pub(crate) mod quality;
 pub(crate) mod receiver_offset;
 mod report;
 pub(crate) mod shadow_map;
+mod surface_error;
 
 pub use aliasing::Aliasing;
 pub use quality::Footprint;
 pub use report::{DepthResolution, Report};
 pub use shadow_map::{DepthSpan, Window};
+pub use surface_error::SurfaceError;

@@ -83,8 +83,6 @@ pub struct ShadowMap {
     pub(crate) along: LinearDepth,
     pub(crate) noise: MapNoise,
     pub(crate) weakening: f64,
-    /// By how much of the uniform map's w the best map was mixed, see [`Proposed::mixed`](crate::warp::Proposed).
-    pub(crate) mixed: f64,
     pub(crate) fallback: Option<WarpFallback>,
     pub(crate) jumped: bool,
     pub(crate) warp_ratio: f64,

@@ -224,13 +224,19 @@ impl Planner<'_> {
                 None => return Ok(Some(uniform)),
             },
         };
-        let (worst, times) = (warped.aliasing / uniform.aliasing, warped.times(&uniform));
-        Ok(Some(if worst <= 1.0 && times * WORTH < 1.0 {
+        // What a viewer sees decides: texels and bias at the surfaces in view.
+        let error = |candidate: &Candidate| match candidate.projections.first() {
+            Some(Projection::Frustum(map)) => map.surface_error(focus).map(|error| error.mean),
+            _ => None,
+        };
+        let times = error(&warped).zip(error(&uniform)).map(|(warped, uniform)| warped / uniform);
+        let times = times.unwrap_or_else(|| warped.times(&uniform));
+        Ok(Some(if times * WORTH < 1.0 {
             reasons.push(Reason::WarpFiner(times));
             reasons.extend(why);
             warped
         } else {
-            reasons.push(Reason::WarpNoFiner(worst.max(times)));
+            reasons.push(Reason::WarpNoFiner(times));
             uniform
         }))
     }

@@ -21,11 +21,11 @@ pub enum Reason {
     UniformEnough,
     /// One uniform map: the settings ask for no warp.
     NoWarpWanted,
-    /// One uniform map: a warp would be no finer, or not enough so. Its texels would be so many times as large, at worst or
-    /// on the mean of both.
+    /// One uniform map: a warp would be no better, or not enough so. Its error at the surfaces in view would be so many times as
+    /// large.
     WarpNoFiner(f64),
-    /// One warped map: its worst texel is no larger than the uniform map's, and its texels, at worst and on the mean taken
-    /// together, are so many times as large (less than 1).
+    /// One warped map: its error at the surfaces in view, texels and bias ([`SurfaceError`](crate::map::SurfaceError)), is so many
+    /// times the uniform map's (less than 1).
     WarpFiner(f64),
     /// The warp's camera is moved back: without, texels would be so many times as large.
     ShiftFiner(f64),
@@ -79,9 +79,9 @@ impl fmt::Display for Reason {
             Self::UniformEnough => f.write_str("uniform: fine enough without a warp"),
             Self::NoWarpWanted => f.write_str("uniform: the settings ask for no warp"),
             Self::WarpNoFiner(part) => {
-                write!(f, "uniform: the texels of a warp would be {part:.2} times as large")
+                write!(f, "uniform: the error of a warp would be {part:.2} times as large")
             }
-            Self::WarpFiner(part) => write!(f, "warped: texels are {part:.2} times the uniform map's"),
+            Self::WarpFiner(part) => write!(f, "warped: the error is {part:.2} times the uniform map's"),
             Self::ShiftFiner(times) => {
                 write!(f, "moved back: without, texels would be {times:.2} times as large")
             }

@@ -2,6 +2,7 @@
 
 pub(crate) mod fallback;
 pub(crate) mod filter;
+pub(crate) mod objective;
 
 use crate::error::{Expected, InputError, check};
 use crate::focus::FocusForm;
@@ -9,6 +10,7 @@ use crate::input::clip_space::ClipSpace;
 use crate::input::light::Light;
 use crate::input::view::View;
 use glam::{DVec2, DVec3};
+pub use objective::Objective;
 
 /// The warp: how texels are distributed, as the covector c that becomes w (`docs/warps.md` compares them).
 ///
@@ -66,10 +68,9 @@ pub enum Warp {
     Stable,
     /// The best single matrix that a search of this effort finds, over the warp and over turn and shear of the window.
     ///
-    /// It minimises the worst aliasing over the vertices of R and, for local lights, the middles of its edges, starting from all
-    /// closed forms. Points nearer to the eye than a 256th of the farthest depth, most often air, count as if they stood there.
-    /// The result is then mixed with the uniform map as far as that is better at sampled receivers, where bias counts besides
-    /// texels; [`ShadowMap::weakening`](crate::ShadowMap::weakening) is 1 where the uniform map is better.
+    /// It minimises the mean error at the surfaces in view, or the worst ([`Objective`]): texels and bias in pixels, starting from all
+    /// closed forms, of which none has a smaller error. Surfaces are those that the focus knows of: seen ones
+    /// ([`Focus::with_seen`](crate::Focus::with_seen)), listed boxes, or anything in R.
     ///
     /// From frame to frame the search may end in another local minimum. Fitted from the previous map
     /// ([`Focus::fit_warm`](crate::Focus::fit_warm)) it stays in its own, and costs less.
@@ -94,15 +95,15 @@ impl Warp {
 
 /// The effort of the search of [`Warp::Best`]: accuracy for time.
 ///
-/// Worst aliasing over that of an exhaustive search, on outdoor views, median and 95th percentile, and the instructions of a fit
-/// over those of a uniform fit (`cargo test --test fit best -- --nocapture`, `cargo bench --bench instructions`):
+/// Error at visible surfaces over that of an exhaustive search, on outdoor views, median and 95th percentile, and the instructions of
+/// a fit over those of a uniform fit (`cargo test --test fit best -- --nocapture`, `cargo bench --bench instructions`):
 ///
 /// | | sun | point light | spot | times as long |
 /// |---|---|---|---|---|
-/// | `ClosedForms` | 1.21, 1.9 | 1.36, 2.6 | 1.28, 1.7 | 3 to 4 |
-/// | `Rough` | 1.016, 1.13 | 1.020, 1.11 | 1.021, 1.13 | 5 to 7 |
-/// | `Good` | 1.001, 1.007 | 1.002, 1.020 | 1.002, 1.018 | 12 to 20 |
-/// | `Thorough` | 1.001, 1.006 | 1.001, 1.003 | 1.001, 1.014 | 17 to 30 |
+/// | `ClosedForms` | 1.18, 1.87 | 1.24, 4.11 | 1.32, 2.72 | 4 to 6 |
+/// | `Rough` | 1.020, 1.11 | 1.023, 1.21 | 1.011, 1.21 | 6 to 11 |
+/// | `Good` | 1.008, 1.048 | 1.008, 1.036 | 1.005, 1.20 | 10 to 20 |
+/// | `Thorough` | 1.005, 1.032 | 1.007, 1.022 | 1.004, 1.20 | 12 to 26 |
 ///
 /// ```
 /// use shadowfit::{Effort, Settings, Warp};
@@ -223,6 +224,7 @@ pub struct Settings {
     border: u32,
     warp: Warp,
     shift: Shift,
+    objective: Objective,
     clip: ClipSpace,
     origin: Origin,
 }
@@ -236,6 +238,7 @@ impl Default for Settings {
             border: 1,
             warp: Warp::default(),
             shift: Shift::default(),
+            objective: Objective::default(),
             clip: ClipSpace::default(),
             origin: Origin::default(),
         }
@@ -336,6 +339,12 @@ impl Settings {
         Self { shift, ..self }
     }
 
+    /// The settings with what [`Warp::Best`] minimises.
+    #[must_use]
+    pub const fn with_objective(self, objective: Objective) -> Self {
+        Self { objective, ..self }
+    }
+
     /// The settings with the clip convention of the resulting matrices.
     #[must_use]
     pub const fn with_clip(self, clip: ClipSpace) -> Self {
@@ -401,6 +410,12 @@ impl Settings {
         self.shift
     }
 
+    /// What [`Warp::Best`] minimises.
+    #[must_use]
+    pub const fn objective(&self) -> Objective {
+        self.objective
+    }
+
     /// The clip convention.
     #[must_use]
     pub const fn clip(&self) -> ClipSpace {
@@ -425,7 +440,7 @@ fn check_sizes<const N: usize>(sizes: [(&'static str, u32); N]) -> Result<(), In
 /// The serialised form of settings, checked when it is read.
 #[cfg(feature = "serde")]
 mod stored {
-    use super::{ClipSpace, InputError, Origin, Shift, Warp};
+    use super::{ClipSpace, InputError, Objective, Origin, Shift, Warp};
 
     #[derive(serde::Deserialize)]
     pub(super) struct Settings {
@@ -435,6 +450,7 @@ mod stored {
         border: u32,
         warp: Warp,
         shift: Shift,
+        objective: Objective,
         clip: ClipSpace,
         origin: Origin,
     }
@@ -442,10 +458,12 @@ mod stored {
     impl TryFrom<Settings> for super::Settings {
         type Error = InputError;
         fn try_from(settings: Settings) -> Result<Self, InputError> {
-            let Settings { map_width, map_height, image_height, border, warp, shift, clip, origin } = settings;
+            let Settings { map_width, map_height, image_height, border, warp, shift, objective, clip, origin } =
+                settings;
             let largest = Self::new(Self::MAX_SIZE, image_height)?;
             let checked = largest.with_map_sides(map_width, map_height)?.with_border(border)?;
-            Ok(checked.with_warp(warp).with_shift(shift).with_clip(clip).with_origin(origin))
+            let checked = checked.with_warp(warp).with_shift(shift).with_objective(objective);
+            Ok(checked.with_clip(clip).with_origin(origin))
         }
     }
 }

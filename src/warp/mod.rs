@@ -14,18 +14,16 @@ pub(crate) mod search;
 pub(crate) mod stable;
 pub(crate) mod trapezoidal;
 pub(crate) mod virtual_camera;
-mod worth;
 
 use crate::convex::Plane;
 use crate::input::view::View;
-use crate::math::bounds::{Interval, Rectangle, most};
-pub use crate::settings::Shift;
+use crate::math::bounds::{Interval, most};
+pub use crate::settings::{Objective, Shift};
 use crate::warp::homography::Frame;
 use crate::warp::rays::{Functional, Rays};
 use crate::warp::rounding::{AWAY_FROM_LIGHT, UNITS};
 pub use crate::warp::virtual_camera::{ClassKind, LightClass, NearCase, VirtualCamera, classify};
 use glam::{DVec2, DVec3, DVec4};
-pub(crate) use worth::Samples;
 
 /// The receivers that a warp is proposed for, and its limits.
 pub(crate) struct Visible<'a, P> {
@@ -58,16 +56,13 @@ pub(crate) struct Proposed {
     pub(crate) warp: Functional,
     /// The part of c there that is the uniform map's w: how much the warp was weakened.
     pub(crate) weakening: f64,
-    /// The κ of [`Self::mixed_by`], where the best map was mixed.
-    pub(crate) mixed: f64,
     /// The axes of the window there.
     pub(crate) frame: Frame,
 }
 
 impl Proposed {
     /// No warp.
-    pub(crate) const UNIFORM: Self =
-        Self { warp: Functional::ONE, weakening: 1.0, mixed: 0.0, frame: Frame::CHART };
+    pub(crate) const UNIFORM: Self = Self { warp: Functional::ONE, weakening: 1.0, frame: Frame::CHART };
 }
 
 impl<P: Iterator<Item = DVec3> + Clone> Visible<'_, P> {
@@ -76,22 +71,6 @@ impl<P: Iterator<Item = DVec3> + Clone> Visible<'_, P> {
         let mut range = Interval::EMPTY;
         self.points.clone().for_each(|point| range.include(function(self.rays.through(point).0)));
         range
-    }
-
-    /// The rows of a map whose window, from −1 to 1, holds R.
-    fn fitted(&self, [x, y, w]: [Functional; 3]) -> [Functional; 3] {
-        let (mut across, mut along) = (Interval::EMPTY, Interval::EMPTY);
-        for point in self.points.clone() {
-            let (ray, _) = self.rays.through(point);
-            across.include(x.at(ray) / w.at(ray));
-            along.include(y.at(ray) / w.at(ray));
-        }
-        in_window([x, y, w], &Rectangle::over(&across, &along))
-    }
-
-    /// The score of a map against the uniform one, see [`Samples::score`].
-    pub(crate) fn score(&self, proposed: &Proposed, samples: &Samples) -> f64 {
-        samples.score(&self.fitted(proposed.frame.rows(self.middle, &proposed.warp)))
     }
 
     /// The warp `c + κ·w`, with w of the uniform map and the least κ ≥ 0 for which, at every vertex of R and at its middle,
@@ -126,25 +105,11 @@ impl<P: Iterator<Item = DVec3> + Clone> Visible<'_, P> {
         let kappa = for_ratio.max(for_f32).max(0.0);
         let warp = Functional { constant: warp.constant + kappa, ..warp };
         let scale = warp.at(self.middle).recip();
-        Proposed { warp: warp.scaled(scale), weakening: kappa * scale, mixed: 0.0, frame: Frame::CHART }
+        Proposed { warp: warp.scaled(scale), weakening: kappa * scale, frame: Frame::CHART }
     }
-}
-
-/// The rows x, y and w of a map with its window moved from a rectangle to −1 and 1.
-fn in_window([x, y, w]: [Functional; 3], window: &Rectangle) -> [Functional; 3] {
-    let row = |row: Functional, centre: f64, half: f64| row.plus(&w.scaled(-centre)).scaled(half.recip());
-    [row(x, window.centre.x, window.half.x), row(y, window.centre.y, window.half.y), w]
 }
 
 impl Proposed {
-    /// The warp c + κ·w, with w of the uniform map, both 1 at the middle.
-    pub(crate) fn mixed_by(self, kappa: f64) -> Self {
-        let scale = (1.0 + kappa).recip();
-        let Functional { slope, constant } = self.warp;
-        let warp = Functional { slope: slope * scale, constant: (constant + kappa) * scale };
-        Self { warp, weakening: (self.weakening + kappa) * scale, ..self }
-    }
-
     /// The same warp in a window sheared so that its vertical middle line passes through the eye as the light sees it. That line
     /// separates the left and right halves of the view, so that a frustum seen from above fills the window, not a wedge of it.
     ///
@@ -187,11 +152,6 @@ pub(crate) struct Precision {
 }
 
 impl Precision {
-    /// Whether f32 leaves little room for a warp.
-    pub(crate) fn is_short(&self) -> bool {
-        self.part > 0.5 * MOST_PRECISION
-    }
-
     /// The larger the f32 noise of the uniform map, in texels, the less room there is for a warp.
     ///
     /// Rounding of w moves places in a warped map by a fraction that grows as w shrinks against its terms, and its depth range grows

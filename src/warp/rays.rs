@@ -77,6 +77,11 @@ impl Rays {
         (if self.local { across / w } else { across }, w)
     }
 
+    /// The axes of u, v and depth.
+    pub(crate) const fn axes(&self) -> [DVec3; 3] {
+        [self.u_axis, self.v_axis, self.axis]
+    }
+
     /// A point as (u, v, w); for w > 0 its ray is at (u, v)/w.
     pub(crate) fn homogeneous(&self, point: DVec3) -> DVec3 {
         DVec3::new(self.u.at(point), self.v.at(point), self.w.at(point))
@@ -126,10 +131,6 @@ impl Functional {
 
     pub(crate) fn at(&self, ray: DVec2) -> f64 {
         self.slope.dot(ray) + self.constant
-    }
-
-    pub(crate) fn plus(&self, other: &Self) -> Self {
-        Self { slope: self.slope + other.slope, constant: self.constant + other.constant }
     }
 
     pub(crate) fn scaled(&self, factor: f64) -> Self {

@@ -13,11 +13,13 @@
 //! ```
 
 mod cascades;
+mod depth_tiles;
 mod frustum;
 #[cfg(test)]
 mod validation;
 
 pub use cascades::CASCADES;
+pub use depth_tiles::DEPTH_TILES;
 pub use frustum::{BETWEEN_LAYERS, FILTERS, MAP, MAP_ARRAY, PROJECT, VIRTUAL_SAMPLES};
 
 /// Draws and reads paraboloid maps, see [`Paraboloid`](crate::omni::Paraboloid). `ShadowfitParaboloidVertex` can be the

@@ -21,5 +21,6 @@ mod figures;
 mod limit;
 mod paper_construction;
 mod properties;
+mod seen;
 mod snapshots;
 mod stable;

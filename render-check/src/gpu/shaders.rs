@@ -28,8 +28,10 @@ pub(super) fn splats() -> String {
 pub(super) const COPY_DEPTH: &str =
     concat!(include_str!("shaders/full_screen.wgsl"), include_str!("shaders/copy_depth.wgsl"));
 
-/// Reduces a depth buffer to its range.
-pub(super) const DEPTH_ENDS: &str = include_str!("shaders/depth_ends.wgsl");
+/// Reduces a depth buffer to tiles.
+pub(super) fn depth_tiles() -> String {
+    [wgsl::DEPTH_TILES, include_str!("shaders/depth_tiles.wgsl")].concat()
+}
 
 /// The projection of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,7 +93,7 @@ mod tests {
             ("second layer", &second_layer()),
             ("splats", &splats()),
             ("copy depth", COPY_DEPTH),
-            ("depth ends", DEPTH_ENDS),
+            ("depth tiles", &depth_tiles()),
             ("paraboloid map", &paraboloid_map()),
             ("nearest", &nearest(LayoutText::Frustum)),
             ("hardware", &hardware(LayoutText::Frustum)),

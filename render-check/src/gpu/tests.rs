@@ -5,7 +5,9 @@ use shadowfit::{
     ClipSpace, DepthFormat, Focus, Light, Origin, Scene, Settings, ShadowMap, View,
     depth::{Decision, TangentPlane},
     fit,
+    input::DepthRange,
     omni::{Paraboloid, Paraboloids},
+    seen::{DepthTile, Seen},
 };
 
 use super::*;
@@ -66,6 +68,52 @@ fn the_camera_sees_the_triangles_that_rays_meet() {
     // Pixels whose centre lies on an edge may differ.
     let all = (width * height) as usize;
     assert!(same * 200 >= all * 199, "{same} of {all} pixels");
+}
+
+#[test]
+fn tiles_of_the_card_are_those_of_the_crate() {
+    let Stage { gpu, mesh, view, .. } = stage(ClipSpace::WGPU);
+    let geometry = Geometry::upload(&gpu, &mesh, view.eye()).expect("it fits");
+    let surfaces = Surfaces::draw(&gpu, &geometry, &view, IMAGE).expect("drawn");
+    // Tiles of a pixel are the depth buffer itself.
+    let pixels = surfaces.depth_tiles(&gpu, 1).expect("reduced");
+    let depths: Vec<f32> = pixels.iter().map(|tile| tile.depth).collect();
+    assert!(depths.iter().filter(|&&depth| depth > 0.0).count() > depths.len() / 4);
+    for tile in [7, 16, 64] {
+        let card = surfaces.depth_tiles(&gpu, tile).expect("reduced");
+        let own = DepthTile::reduce(&depths, IMAGE, tile, DepthRange::ZeroToOneReversed).expect("sound");
+        for (index, (card, own)) in card.iter().zip(own).enumerate() {
+            assert_eq!(*card, own, "tile {index} of {tile} pixels");
+        }
+    }
+}
+
+/// A tile's sample and slope give back the surface that the pixel shows.
+#[test]
+fn tiles_tell_the_surface_of_their_sample() {
+    let Stage { gpu, mesh, view, .. } = stage(ClipSpace::WGPU);
+    let geometry = Geometry::upload(&gpu, &mesh, view.eye()).expect("it fits");
+    let surfaces = Surfaces::draw(&gpu, &geometry, &view, IMAGE).expect("drawn");
+    let tracer = Tracer::new(&mesh).expect("it has triangles");
+    let (sun, scene) = (Light::directional(DVec3::Y).expect("sound"), mesh.bounds());
+    let scene = Scene::from_box(scene.0, scene.1).expect("sound");
+    let tiles = surfaces.depth_tiles(&gpu, 8).expect("reduced");
+    let seen = Seen::from_tiles(&view, DepthRange::ZeroToOneReversed, IMAGE, 8, &tiles).expect("sound");
+    // What a fit makes of flat ground under a sun from above: no bias, as it is told the ground's normal.
+    let focus = Focus::new(&view, &sun, &scene).with_seen(&seen);
+    let map = focus.fit(&Settings::new(MAP, IMAGE[1]).expect("sound")).into_map().expect("one map does");
+    assert!(map.surface_error(&focus).is_some_and(|error| error.bias < error.texel));
+    let lens = Lens::of_view(&view).expect("invertible");
+    let (mut near, shown) = (0, tiles.iter().filter(|tile| !tile.is_empty()).count());
+    for tile in tiles.iter().filter(|tile| !tile.is_empty()) {
+        let [x, y] = tile.pixel.map(u32::from);
+        let ray = lens.ray_through_pixel(x, y, IMAGE[0], IMAGE[1]).expect("in front");
+        let hit = tracer.first_hit(&ray).expect("a surface");
+        let depth = view.depth_of(tile.depth.into(), DepthRange::ZeroToOneReversed);
+        near += usize::from((view.depth(hit.point) / depth - 1.0).abs() < 1e-3);
+    }
+    // Pixels whose centre lies on an edge may differ.
+    assert!(near * 50 >= shown * 49, "{near} of {shown}");
 }
 
 #[test]

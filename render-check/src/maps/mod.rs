@@ -7,7 +7,7 @@ mod no_map;
 mod split;
 mod technique;
 
-pub use cascading::{Cascading, SplitArg, cascades};
+pub use cascading::{Cascading, Cuts, SplitArg, cascades};
 pub use clip::ClipConvention;
 pub use layout::{BENT, Layout};
 pub use no_map::{NoMap, map_or_reason};

@@ -1,10 +1,9 @@
 //! Which of a light's maps covers a point.
 
 use shadowfit::glam::{DVec3, DVec4};
-use shadowfit::{
-    cascades::{CascadeSplits, Cascades},
-    omni::CubeFace,
-};
+use shadowfit::{cascades::Cascades, omni::CubeFace};
+
+use super::cascading::Cuts;
 
 /// How the domain of a light is split among its maps.
 #[derive(Clone, Debug)]
@@ -21,7 +20,7 @@ pub enum Split {
     /// By depth in front of the eye: each part is a cascade.
     Depths {
         /// The splits.
-        cuts: CascadeSplits<'static>,
+        cuts: Cuts,
         /// The cascades.
         cascades: Box<Cascades<'static>>,
     },
@@ -48,7 +47,7 @@ impl Split {
 
     /// The cascades of a view, with their splits.
     #[must_use]
-    pub fn cascades(cuts: CascadeSplits<'static>, cascades: Cascades<'static>) -> Self {
+    pub fn cascades(cuts: Cuts, cascades: Cascades<'static>) -> Self {
         Self::Depths { cuts, cascades: Box::new(cascades) }
     }
 
@@ -131,7 +130,7 @@ mod tests {
     use shadowfit::{Light, Scene, View};
 
     use super::*;
-    use crate::maps::{Cascading, SplitArg, cascades};
+    use shadowfit::cascades::{CascadeSplits, SplitScheme};
 
     #[test]
     fn halves_are_on_both_sides() {
@@ -161,9 +160,9 @@ mod tests {
         let view = View::perspective(eye, forward, DVec3::Y, 1.0, 1.6, 0.5, 64.0).expect("sound");
         let light = Light::directional(DVec3::Y).expect("sound");
         let scene = Scene::from_box(DVec3::splat(-500.0), DVec3::splat(500.0)).expect("sound");
-        let cuts =
-            Cascading { count: 7, split: SplitArg(shadowfit::cascades::SplitScheme::Logarithmic) }.cuts(true);
-        let split = Split::cascades(cuts, cascades(&view, &light, &scene, cuts).expect("sound"));
+        let cuts = CascadeSplits::View { count: 7, split: SplitScheme::Logarithmic };
+        let cascades = Cascades::new(&view, &light, &scene, cuts, 0.0).expect("sound");
+        let split = Split::cascades(Cuts::Splits(cuts), cascades);
         let ends = split.ends().expect("cascades");
         assert_eq!((split.parts(), ends[6], ends[7]), (7, f32::MAX, f32::MAX));
         for part in 0..7 {

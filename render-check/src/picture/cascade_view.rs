@@ -45,9 +45,10 @@ const TEXT: Colour = [0.75, 0.75, 0.72];
 #[cfg(test)]
 mod tests {
     use shadowfit::Scene;
+    use shadowfit::cascades::{CascadeSplits, Cascades, SplitScheme};
 
     use super::*;
-    use crate::maps::{Cascading, SplitArg, cascades};
+    use crate::maps::Cuts;
     use crate::trace::Tracer;
     use crate::verdict::fake::{self, LAMP_NEAR, SUN};
 
@@ -60,8 +61,9 @@ mod tests {
         let (min, max) = mesh.bounds();
         let scene = Scene::from_box(min, max).expect("sound");
         let light = SUN.to_light(LAMP_NEAR).expect("sound");
-        let cuts = Cascading { count: 3, split: SplitArg(shadowfit::cascades::SplitScheme::Uniform) }.cuts(false);
-        let split = Split::cascades(cuts, cascades(&fake::view(), &light, &scene, cuts).expect("a finite view"));
+        let cuts = CascadeSplits::Visible { count: 3, split: SplitScheme::Uniform };
+        let cascades = Cascades::new(&fake::view(), &light, &scene, cuts, 0.0).expect("a finite view");
+        let split = Split::cascades(Cuts::Splits(cuts), cascades);
         let image = tinted(&grey, &truth, &split);
         let mut seen = [0; 3];
         // Above the caption.

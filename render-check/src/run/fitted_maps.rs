@@ -16,7 +16,7 @@ use shadowfit::{
 use super::cut::{Cut, Cutting};
 use super::options::Options;
 use crate::gpu::{Geometry, MapDraw, MapPass, ShadowMaps};
-use crate::maps::{Layout, NoMap, Split, cascades, map_or_reason};
+use crate::maps::{Layout, NoMap, Split, map_or_reason};
 use crate::scene::{Mesh, Object};
 use crate::stage::Stage;
 
@@ -160,7 +160,7 @@ impl FittedMaps {
     }
 
     fn paraboloids(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<Result<Self, NoMap>> {
-        let focus = Focus::new(&stage.fitted_view, light, &stage.bounds);
+        let focus = stage.focus(light);
         let settings = options.settings(stage)?;
         let fitted = focus.paraboloids(&settings);
         let split = match &fitted {
@@ -241,14 +241,12 @@ impl FittedMaps {
                 usize::from(fitted(focus, before, settings).map().is_some())
             }
         };
-        let view = &stage.fitted_view;
         if let (Split::Depths { cuts, .. }, [light]) = (&self.split, &self.lights[..]) {
-            let cascades = cascades(view, light, &stage.bounds, *cuts);
-            return cascades.map_or(0, |cascades| {
+            return stage.cascades(light, *cuts, settings).map_or(0, |cascades| {
                 (0..).zip(cascades.iter()).map(|(part, cascade)| maps(part, &cascade.focus)).sum()
             });
         }
-        let of_light = |(part, light)| maps(part, &Focus::new(view, light, &stage.bounds));
+        let of_light = |(part, light)| maps(part, &stage.focus(light));
         self.lights.iter().enumerate().map(of_light).sum()
     }
 
@@ -321,7 +319,7 @@ impl FittedMaps {
 fn parts(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<(Split, Vec<Light>)> {
     if let Some(cascading) = options.cascading {
         let cuts = cascading.cuts(options.technique.stays_put());
-        let cascades = cascades(&stage.fitted_view, light, &stage.bounds, cuts)?;
+        let cascades = stage.cascades(light, cuts, &options.settings(stage)?)?;
         return Ok((Split::cascades(cuts, cascades), vec![*light]));
     }
     let overlap = CubeFace::overlap(options.filter.reach(), options.map_size, options.border());
@@ -338,9 +336,7 @@ fn parts(stage: &Stage<'_>, light: &Light, options: &Options) -> Result<(Split, 
 /// The focus of each part.
 fn foci(stage: &Stage<'_>, split: &Split, lights: &[Light]) -> Vec<Focus<'static>> {
     match split {
-        Split::Directions { .. } => {
-            lights.iter().map(|light| Focus::new(&stage.fitted_view, light, &stage.bounds)).collect()
-        }
+        Split::Directions { .. } => lights.iter().map(|light| stage.focus(light)).collect(),
         Split::Depths { cascades, .. } => cascades.iter().map(|cascade| cascade.focus.clone()).collect(),
     }
 }

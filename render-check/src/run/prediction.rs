@@ -1,7 +1,7 @@
 //! The aliasing that a fit predicts, and its lower bound.
 
 use serde::Serialize;
-use shadowfit::{Focus, Light, Settings};
+use shadowfit::{Light, Settings};
 
 use super::fitted_maps::FittedMaps;
 use crate::stage::Stage;
@@ -13,6 +13,12 @@ pub struct Prediction {
     pub predicted: Option<f64>,
     /// An upper bound.
     pub predicted_at_most: Option<f64>,
+    /// The error at the surfaces in view, see [`shadowfit::ShadowMap::surface_error`]; `None` for paraboloids.
+    pub surface_error: Option<f64>,
+    /// The means of its two parts.
+    pub texel: Option<f64>,
+    /// The bias.
+    pub bias: Option<f64>,
     /// A lower bound for any parameterization with the same number of texels.
     pub limit: f64,
 }
@@ -27,11 +33,23 @@ impl Prediction {
             Some((worst.worst, worst.upper_bound))
         });
         let worst = worst.reduce(|one, other| (one.0.max(other.0), one.1.max(other.1)));
+        let (mut squares, mut texels, mut biases, mut pixels) = (0.0, 0.0, 0.0, 0.0);
+        for (part, focus) in foci.iter().enumerate() {
+            let focus = focus.clone().with_seen(&stage.seen);
+            let Some(error) = fitted.frustum(part).and_then(|map| map.surface_error(&focus)) else { continue };
+            squares += error.rms * error.rms * error.pixels;
+            texels += error.texel * error.pixels;
+            biases += error.bias * error.pixels;
+            pixels += error.pixels;
+        }
         let settings = fitted.maps.iter().flatten().next().map(|map| *map.map.settings());
         let maps = fitted.maps.iter().flatten().count();
         Self {
             predicted: worst.map(|(worst, _)| worst),
             predicted_at_most: worst.map(|(_, at_most)| at_most),
+            surface_error: (pixels > 0.0).then(|| (squares / pixels).sqrt()),
+            texel: (pixels > 0.0).then(|| texels / pixels),
+            bias: (pixels > 0.0).then(|| biases / pixels),
             limit: settings.map_or(0.0, |settings| limit(stage, light, &settings, maps)),
         }
     }
@@ -40,6 +58,5 @@ impl Prediction {
 /// The lower bound for a light with the texels of several maps: it is proportional to one over the root of their
 /// number.
 fn limit(stage: &Stage<'_>, light: &Light, settings: &Settings, maps: usize) -> f64 {
-    let focus = Focus::new(&stage.fitted_view, light, &stage.bounds);
-    focus.aliasing_lower_bound(settings) / (maps as f64).sqrt()
+    stage.focus(light).aliasing_lower_bound(settings) / (maps as f64).sqrt()
 }

@@ -5,12 +5,15 @@ mod framing;
 
 use anyhow::Result;
 use shadowfit::glam::DVec3;
-use shadowfit::{Light, Origin, Scene, View};
+use shadowfit::input::{DAabb, DepthRange};
+use shadowfit::seen::Seen;
+use shadowfit::{Focus, Light, Origin, Scene, Settings, View, cascades::Cascades};
 
 pub use extent::{lamp_near, least_lamp_near, scene_box};
 pub use framing::{CameraRequest, choose_camera, choose_view};
 
 use crate::gpu::{Geometry, Gpu, Surfaces};
+use crate::maps::{self, Cuts};
 use crate::scene::LightSpec;
 use crate::trace::Tracer;
 use crate::verdict::TruthImage;
@@ -27,6 +30,10 @@ pub struct Stage<'a> {
     pub view: View,
     /// The view that maps are fitted to: the camera's, or narrowed to the depth range of its visible surfaces.
     pub fitted_view: View,
+    /// The visible surfaces, as the camera's depth buffer shows them.
+    pub seen: Seen<'static>,
+    /// Whether maps are fitted to them.
+    pub fits_seen: bool,
     /// Width and height of its image, in pixels.
     pub size: [u32; 2],
     /// The origin of the maps' matrices.
@@ -50,12 +57,17 @@ impl<'a> Stage<'a> {
         let surfaces = Surfaces::draw(gpu, &geometry, view, size)?;
         let bounds = scene_box(tracer.mesh())?;
         let origin = Origin::Eye;
+        // Few, and as long-lived as the stages that share them.
+        let tiles = surfaces.depth_tiles(gpu, surfaces.tile())?.leak();
+        let seen = Seen::from_tiles(view, DepthRange::ZeroToOneReversed, size, surfaces.tile(), tiles)?;
         Ok(Self {
             gpu,
             tracer,
             bounds,
             view: *view,
             fitted_view: *view,
+            seen,
+            fits_seen: false,
             size,
             origin,
             geometry,
@@ -82,6 +94,41 @@ impl<'a> Stage<'a> {
     /// When the GPU reports an error.
     pub fn narrowed(self) -> Result<Self> {
         Ok(Self { fitted_view: self.surfaces.narrowed(self.gpu, &self.view)?, ..self })
+    }
+
+    /// The same with a box for each object instead of one for all.
+    ///
+    /// # Errors
+    ///
+    /// When an object is too large for the fit.
+    pub fn with_boxes(self) -> Result<Self> {
+        let objects = self.tracer.mesh().objects.iter();
+        let boxes: Vec<DAabb> = objects.map(|object| DAabb { min: object.min, max: object.max }).collect();
+        let boxes: &'static [DAabb] = boxes.leak();
+        Ok(Self { bounds: Scene::new(boxes, boxes)?, ..self })
+    }
+
+    /// The same with maps fitted to the visible surfaces.
+    #[must_use]
+    pub fn seeing(self) -> Self {
+        Self { fits_seen: true, ..self }
+    }
+
+    /// The focus of a light.
+    #[must_use]
+    pub fn focus(&self, light: &Light) -> Focus<'static> {
+        let focus = Focus::new(&self.fitted_view, light, &self.bounds);
+        if self.fits_seen { focus.with_seen(&self.seen) } else { focus }
+    }
+
+    /// The cascades of a light, for maps of these settings.
+    ///
+    /// # Errors
+    ///
+    /// For stabilised cascades of a view with an infinite far plane.
+    pub fn cascades(&self, light: &Light, cuts: Cuts, settings: &Settings) -> Result<Cascades<'static>> {
+        let cascades = maps::cascades(&self.fitted_view, light, &self.bounds, cuts, &self.seen, settings)?;
+        Ok(if self.fits_seen { cascades.with_seen(&self.seen) } else { cascades })
     }
 
     /// The same with another near plane for local lights, if one is given.

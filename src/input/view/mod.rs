@@ -13,6 +13,7 @@ mod ball;
 mod camera;
 mod decode;
 mod frustum;
+mod image;
 mod matrices;
 mod planes;
 #[cfg(feature = "serde")]
@@ -20,6 +21,7 @@ mod stored;
 mod tangents;
 
 pub use camera::{OrthographicCamera, PerspectiveCamera};
+pub(crate) use image::Image;
 pub use planes::FrustumPlanes;
 pub use tangents::Tangents;
 
@@ -387,6 +389,19 @@ impl View {
     }
 
     /// The side of a pixel at a point, across the view axis, in world units, for an image `image_height` pixels high.
+    /// The place of a point in the frame, 0 to 1, y up; `None` behind the eye.
+    pub(crate) fn place(&self, point: DVec3) -> Option<DVec2> {
+        let [x, y, _, w] = self.rows(self.near, self.far);
+        let at = w.at(point);
+        (at > 0.0).then(|| (DVec2::new(x.at(point), y.at(point)) / at + 1.0) * 0.5)
+    }
+
+    /// The width of the image over its height.
+    pub(crate) fn aspect(&self) -> f64 {
+        let size = self.frame_max - self.frame_min;
+        size.x / size.y
+    }
+
     pub(crate) fn pixel_size(&self, point: DVec3, image_height: u32) -> f64 {
         2.0 * self.half_height(self.depth(point)) / f64::from(image_height)
     }

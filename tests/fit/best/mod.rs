@@ -1,23 +1,21 @@
 //! The search for the best matrix: how close it comes, and that it is never worse than what it starts from.
 
 mod exhaustive;
-mod found;
 mod frames;
 
-use exhaustive::Plane;
-use found::{of_form, of_search};
-use glam::DVec3;
+use exhaustive::Chart;
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
-use shadowfit::{Effort, Focus, FocusForm, Settings, ShadowMap, Warp, warp::Shift};
+use shadowfit::warp::{Objective, Shift};
+use shadowfit::{Effort, Focus, FocusForm, Settings, ShadowMap, Warp, seen::Seen};
 use std::cell::Cell;
 use testkit::arbitrary::{FORMS, Together, case, run};
 use testkit::outdoors::{self, Kind};
 
 const EFFORTS: [Effort; 4] = [Effort::ClosedForms, Effort::Rough, Effort::Good, Effort::Thorough];
 
-/// A map without a border, so that its aliasing is that of its window.
+/// A map without a border, so that its error is that of its window.
 fn settings() -> Settings {
     Settings::default().with_border(0).expect("legal sizes")
 }
@@ -31,69 +29,57 @@ fn of_sides((width, height): (u32, u32)) -> Settings {
     settings().with_map_sides(width, height).expect("legal sizes")
 }
 
-/// What the search looks at: the vertices of R, and under a light at a position the middles of its edges.
-fn points(focus: &Focus<'_>) -> Vec<DVec3> {
-    let visible = focus.receiver_volume();
-    let mut points = visible.vertices().to_vec();
-    if focus.light().position().is_some() {
-        points.extend(visible.edges().map(|(a, b)| (a + b) * 0.5));
-        // A segment has no faces, and edges are told by them.
-        if let &[a, b] = visible.vertices() {
-            points.push((a + b) * 0.5);
-        }
-    }
-    points
-}
-
-/// The search finds the best map to within a twentieth in 95 % of the cases where anything of it is left, and the most thorough one
-/// in 97 %; the light's kind makes no difference.
+/// The search finds the best map to within a twentieth in 88 % of the cases, and the most thorough one in 90 %; the light's kind makes
+/// no difference.
 #[test]
 fn comes_within_a_twentieth_of_an_exhaustive_search() {
-    comes_within_a_twentieth(&settings(), 100, [0.95, 0.97]);
+    comes_within_a_twentieth(&settings(), 60, [0.88, 0.9]);
 }
 
-/// In maps that are four times as wide as high it does so in 90 % and 95 % of the cases.
+/// Likewise for the worst error, in 80 and 88 %.
+#[test]
+fn comes_within_a_twentieth_of_the_least_worst() {
+    comes_within_a_twentieth(&settings().with_objective(Objective::Worst), 40, [0.8, 0.88]);
+}
+
+/// In maps that are four times as wide as high it does so in 65 % of the cases.
 #[test]
 fn comes_within_a_twentieth_in_maps_that_are_not_square() {
-    comes_within_a_twentieth(&of_sides((4096, 1024)), 100, [0.9, 0.95]);
+    comes_within_a_twentieth(&of_sides((4096, 1024)), 40, [0.65, 0.65]);
 }
 
 /// Asserts that a good search and a thorough one come so close in these parts of so many cases of each kind of light.
 fn comes_within_a_twentieth(settings: &Settings, cases: usize, [good, thorough]: [f64; 2]) {
-    let (width, height) = settings.map_sides();
-    let (width, height) = (f64::from(width), f64::from(height));
-    // In pixels of the settings' image, and texels of their map.
-    let scale = f64::from(settings.image_height()) / (width * height).sqrt();
     let scene = outdoors::town();
     for kind in Kind::ALL {
         let mut random = StdRng::seed_from_u64(11);
         let mut ratios = [const { Vec::new() }; 4];
-        let (mut tried, mut held) = (0, 0);
-        while tried < cases {
+        let mut tried = 0;
+        // Lights that light nothing in view are passed over.
+        for _ in 0..4 * cases {
+            if tried == cases {
+                break;
+            }
+            let boxes = outdoors::buildings(&mut random);
             let (view, light) = (outdoors::view(&mut random), kind.light(&mut random));
-            let focus = Focus::new(&view, &light, &scene);
-            let points = points(&focus);
-            let Some(plane) = Plane::new(&view, &light, &points, width / height) else { continue };
-            let best_map = |effort| {
-                let outcome = focus.fit(&settings.with_warp(Warp::Best(effort)));
-                outcome.into_map()
-            };
-            let found = EFFORTS.map(|effort| best_map(effort).and_then(|map| of_search(&focus, &map, &points)));
-            tried += 1;
-            let [Some(closed), Some(rough), Some(good), Some(thorough)] = found else {
-                held += 1;
+            let points = outdoors::seen(&view, &boxes, [16, 9]);
+            let seen = Seen::from_points(&points).expect("legal points");
+            let focus = Focus::new(&view, &light, &scene).with_seen(&seen);
+            let of = |effort| focus.fit(&settings.with_warp(Warp::Best(effort))).into_map();
+            let Some(maps) = EFFORTS.into_iter().map(of).collect::<Option<Vec<_>>>() else { continue };
+            let Some(chart) = Chart::new(&focus, &maps[0], &points) else { continue };
+            if error(&focus, &maps[0]).is_none() {
                 continue;
-            };
-            let least = plane.least_worst(60, tried as u64) * scale;
-            for (ratios, worst) in ratios.iter_mut().zip([closed, rough, good, thorough]) {
-                ratios.push(worst / least);
+            }
+            tried += 1;
+            let least = chart.least_error(24, tried as u64);
+            for (ratios, map) in ratios.iter_mut().zip(&maps) {
+                ratios.push(error(&focus, map).expect("surfaces") / least);
             }
         }
-        assert!(held * 3 <= tried, "nothing left of what was found in {held} of {tried}");
-        println!(
-            "{kind:?}, {width} by {height}: worst aliasing over the exhaustive search's, {} cases, {held} left uniform",
-            ratios[0].len()
-        );
+        assert_eq!(tried, cases, "{kind:?}");
+        let (width, height) = settings.map_sides();
+        println!("{kind:?}, {width} by {height}: error over the exhaustive search's, {} cases", ratios[0].len());
         for (ratios, effort) in ratios.iter_mut().zip(EFFORTS) {
             ratios.sort_by(f64::total_cmp);
             let at = |part: f64| ratios[((ratios.len() - 1) as f64 * part) as usize];
@@ -108,6 +94,12 @@ fn comes_within_a_twentieth(settings: &Settings, cases: usize, [good, thorough]:
     }
 }
 
+/// The number that the search minimises.
+fn error(focus: &Focus<'_>, map: &ShadowMap) -> Option<f64> {
+    let error = map.surface_error(focus)?;
+    Some(if map.settings().objective() == Objective::Worst { error.worst } else { error.mean })
+}
+
 /// The part of a window that f32 needs for itself, at most, where a map says anything about warps: where it needs more, scenes are
 /// smaller than what f32 can tell apart in world space.
 const MOST_PADDING: f64 = 1.0 / 64.0;
@@ -117,8 +109,7 @@ fn padding(map: &ShadowMap) -> f64 {
     across.max(along)
 }
 
-/// The worst over the vertices, and under a light at a position over the middles of edges too, is no more than that of any
-/// closed form, but for what its window is padded by.
+/// The error at surfaces is no more than that of any closed form, but for what its window is padded by.
 #[test]
 fn is_never_worse_than_a_closed_form() {
     let shift = prop_oneof![
@@ -137,13 +128,14 @@ fn is_never_worse_than_a_closed_form() {
         if padding(&best) > MOST_PADDING {
             return;
         }
-        let points = points(&focus);
-        let Some(found) = of_search(&focus, &best, &points) else { return };
+        let Some(found) = error(&focus, &best) else { return };
         compared.set(compared.get() + 1);
         for form in FORMS {
             // Of a list's casters none may be in the window of another map.
-            let Some(form) = fitted(form).map(|form| of_form(&focus, &form, &points)) else { continue };
-            assert!(found <= form * (1.0 + 1e-6), "{found} of {form}");
+            let Some(form) = fitted(form) else { continue };
+            let room = 1.0 + 2.0 * padding(&best);
+            let form = error(&focus, &form).expect("surfaces");
+            assert!(found <= form * room * (1.0 + 1e-4), "{found} of {form}");
         }
     });
     assert!(compared.get() * 4 > all.get(), "{} of {}", compared.get(), all.get());
@@ -160,10 +152,9 @@ fn a_map_of_the_same_frame_is_kept() {
         let again = focus.fit_warm(&first, &settings);
         let again = again.map().expect("a map as before");
         if padding(&first).max(padding(again)) <= MOST_PADDING {
-            let points = points(&focus);
-            let found = |map| of_search(&focus, map, &points);
-            let (Some(before), Some(after)) = (found(&first), found(again)) else { return };
-            assert!(after <= before * (1.0 + 1e-6), "{after} after {before}");
+            let (Some(before), Some(after)) = (error(&focus, &first), error(&focus, again)) else { return };
+            // What the search in f32 cannot tell apart, it does not move for.
+            assert!(after <= before * (1.0 + 1e-3), "{after} after {before}");
         }
     });
 }

@@ -112,8 +112,13 @@ impl<'a> Bench<'a> {
         fit.undrawn = both().filter(|(_, (needed, drawn))| **needed && !**drawn).count();
         let in_both: Vec<usize> = both().filter(|(_, (a, b))| **a && **b).map(|(index, _)| index).collect();
         fit.cut = in_both.into_iter().filter(|&index| self.is_cut(index, &fitted.clip, tolerance)).count();
-        fit.receivers_cut =
-            sides(fitted).iter().any(|plane| lies_outside(&self.truth.truth.visible, plane, tolerance));
+        // The parts of receivers in view: the air between them need not be in a map.
+        let seen = || self.truth.seen.iter().flatten();
+        let is_cut = |plane: &Plane| {
+            let plane = plane.normalized();
+            seen().any(|point| plane.at(*point) < -tolerance)
+        };
+        fit.receivers_cut = sides(fitted).iter().any(is_cut);
         fit
     }
 

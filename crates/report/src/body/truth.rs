@@ -135,14 +135,27 @@ impl TownTruth {
         if receivers.is_empty() {
             return Ok(None);
         }
-        let receiving = box_planes(bounds(&receivers));
-        let Some(truth) = Truth::new(&case.view, &case.light, &receiving, &scene) else { return Ok(None) };
-        let needed = town.casters.iter().map(|caster| truth.body.meets(caster)).collect();
         let corners = |one: &Aabb| -> Result<Vec<DVec3>> {
             let scene = Scene::from_box(one.min, one.max).context("a receiver is no box")?;
             Ok(Focus::new(&case.view, &case.light, &scene).receiver_volume().vertices().to_vec())
         };
-        let seen = receivers.iter().map(corners).collect::<Result<_>>()?;
+        let seen: Vec<Vec<DVec3>> = receivers.iter().map(corners).collect::<Result<_>>()?;
+        // Besides the box around them all, R ends at the nearest and the farthest depth of any receiver in view.
+        let view = &case.view;
+        let in_view = receivers.iter().map(|one| -> Result<Vec<DVec3>> {
+            let scene = Scene::from_box(one.min, one.max).context("a receiver is no box")?;
+            let everywhere = Light::directional(DVec3::Y).context("a direction")?;
+            Ok(Focus::new(view, &everywhere, &scene).receiver_volume().vertices().to_vec())
+        });
+        let in_view: Vec<Vec<DVec3>> = in_view.collect::<Result<_>>()?;
+        let depths = in_view.iter().flatten().map(|point| view.depth(*point));
+        let (near, far) =
+            depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(near, far), depth| (near.min(depth), far.max(depth)));
+        let depth = Plane::new(view.forward(), -view.forward().dot(view.eye()));
+        let ends = [depth - Plane::new(DVec3::ZERO, near), Plane::new(DVec3::ZERO, far) - depth];
+        let receiving = [&box_planes(bounds(&receivers))[..], &ends].concat();
+        let Some(truth) = Truth::new(&case.view, &case.light, &receiving, &scene) else { return Ok(None) };
+        let needed = town.casters.iter().map(|caster| truth.body.meets(caster)).collect();
         Ok(Some(Self { truth, needed, seen }))
     }
 }

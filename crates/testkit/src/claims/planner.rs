@@ -3,7 +3,7 @@
 use rand::{Rng, RngExt as _};
 use shadowfit::glam::{DVec3, Vec3};
 use shadowfit::{
-    Aabb, ClipSpace, Light, View, Warp,
+    Aabb, ClipSpace, Focus, Light, Scene, View, Warp,
     focus::Plane,
     omni::CubeFace,
     plan::{Budget, Kind, LightPlan, Object, Objects, Pass, Plan, Projection, Reason, plan},
@@ -109,19 +109,31 @@ pub fn keeps_every_receiver_in_view(rng: &mut impl Rng, town: &LitTown) {
     }
 }
 
-/// Asserts that a warp is chosen only where it is finer than none; says how many were.
+/// Asserts that a warp is chosen only where its error at the surfaces in view is less than without one; says how many were.
 pub fn warps_to_gain(town: &LitTown) -> u64 {
     let budget = &town.budget;
     let unwarped = Budget::new(budget.settings().with_warp(Warp::Uniform)).with_filter(budget.filter());
     let (free, uniform) = (planned(town, budget), planned(town, &unwarped));
+    let boxes = |is: fn(&Object) -> bool| -> Vec<Aabb> {
+        town.objects.iter().filter(|object| is(object)).map(|object| object.bounds).collect()
+    };
+    let (casters, receivers) = (boxes(|object| object.casts), boxes(|object| object.receives));
+    let scene = Scene::new(&casters, &receivers).expect("legal boxes");
     let mut warped = 0;
-    for (free, uniform) in free.lights().iter().zip(uniform.lights()) {
-        if (free.kind(), uniform.kind()) == (Kind::Warped, Kind::Uniform) {
+    for ((light, free_light), uniform_light) in town.lights.iter().zip(free.lights()).zip(uniform.lights()) {
+        if (free_light.kind(), uniform_light.kind()) == (Kind::Warped, Kind::Uniform) {
             warped += 1;
-            let (size, uniform_size) = (free.passes()[0].map_size(), uniform.passes()[0].map_size());
+            let (pass, without) = (&free_light.passes()[0], &uniform_light.passes()[0]);
+            let (size, uniform_size) = (pass.map_size(), without.map_size());
             assert!(size <= uniform_size, "{size} and {uniform_size} texels");
-            let is_finer = free.aliasing() < uniform.aliasing() || free.aliasing() <= budget.aliasing();
-            assert!(is_finer, "{} and {}", free.aliasing(), uniform.aliasing());
+            let focus = Focus::new(free.view(), light, &scene);
+            let error = |pass: &Pass| match pass.projection() {
+                Projection::Frustum(map) => map.surface_error(&focus).map(|error| error.mean),
+                _ => None,
+            };
+            if let Some((with, without)) = error(pass).zip(error(without)) {
+                assert!(size < uniform_size || with < without, "{with} and {without}");
+            }
         }
     }
     warped

@@ -94,6 +94,20 @@ impl<'a> Setup<'a> {
         Ok(changed)
     }
 
+    /// The same maps, each fitted again to the camera as it is and one box around the scene: nothing tells them where receivers
+    /// begin.
+    pub(super) fn unnarrowed(&self, maps: &Maps) -> Result<Maps> {
+        let mut changed = maps.clone();
+        for (light, fitted) in maps.fitted.lights.iter().zip(&mut changed.fitted.maps) {
+            if let Some(fitted) = fitted {
+                let focus = Focus::new(&self.stage.view, light, &self.stage.bounds);
+                let map = self.fit_focus(&focus, fitted.map.settings(), &maps.options)?;
+                *fitted = map.context("what had a map has none")?;
+            }
+        }
+        Ok(changed)
+    }
+
     /// The same maps with another depth test (second depth without a bias, or first depth with one) and another
     /// filter.
     pub(super) fn read_by(&self, maps: &Maps, test: DepthTest, filter: Filter) -> Result<Maps> {
@@ -183,7 +197,10 @@ impl<'a> Setup<'a> {
     /// A map and the casters left by culling against H; `None` where no map is needed.
     fn fit(&self, view: &View, light: &Light, settings: &Settings, options: &Options) -> Result<Option<FittedMap>> {
         let scene = Scene::new(&self.boxes, &self.boxes)?;
-        let focus = Focus::new(view, light, &scene);
+        self.fit_focus(&Focus::new(view, light, &scene), settings, options)
+    }
+
+    fn fit_focus(&self, focus: &Focus<'_>, settings: &Settings, options: &Options) -> Result<Option<FittedMap>> {
         let map = match focus.fit(settings) {
             Outcome::Map(map) => Layout::Frustum(map),
             Outcome::Empty(_) => return Ok(None),

@@ -103,7 +103,7 @@ impl Sides {
                 Self { is_asked_for, with: Some(planned), without: Some(all) }
             }
             Effect::Narrowing => {
-                let whole = setup.refitted(&planned, &setup.stage.view, Ok)?;
+                let whole = setup.unnarrowed(&planned)?;
                 // Only a warp depends on the view's near plane.
                 let is_warped =
                     planned.fitted.maps.iter().flatten().any(|one| one.map.settings().warp() != Warp::Uniform);

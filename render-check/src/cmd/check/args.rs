@@ -51,6 +51,14 @@ pub struct CheckArgs {
     #[arg(long)]
     pub narrow: bool,
 
+    /// Fit the maps to the visible surfaces, as the camera's depth buffer shows them
+    #[arg(long, conflicts_with = "narrow")]
+    pub seen: bool,
+
+    /// Fit the maps to the boxes of all objects instead of one box around the scene
+    #[arg(long)]
+    pub boxes: bool,
+
     /// Translate scene, camera and lights by this vector, round positions to f32, and draw maps, casters and
     /// receivers in world space instead of relative to the eye
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]

@@ -82,6 +82,8 @@ pub fn check(args: &CheckArgs) -> Result<()> {
     let stage = Stage::new(&gpu, &tracer, &view, size)?.with_lamp_near(args.view.lamp_near);
     let stage = if args.at.is_some() { stage.in_world_space()? } else { stage };
     let stage = if args.narrow { narrowed(stage)? } else { stage };
+    let stage = if args.boxes { stage.with_boxes()? } else { stage };
+    let stage = if args.seen { stage.seeing() } else { stage };
     let lights = choose_lights(&asked, &scene);
     let options = args.map.options(args.frames);
     let bar = bar("checking", lights.len() * options.len());

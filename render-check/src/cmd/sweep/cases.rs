@@ -98,7 +98,7 @@ pub(super) fn cascades() -> Result<Vec<Shot>> {
             (5, shadowfit::cascades::SplitScheme::Logarithmic),
             (8, shadowfit::cascades::SplitScheme::Logarithmic),
         ] {
-            let cascading = Some(Cascading { count, split: SplitArg(split) });
+            let cascading = Some(Cascading { count, split: SplitArg::Scheme(split) });
             options.push(Options { cascading, ..Options::new(technique, MAP_SIZE / 2) });
         }
     }
