@@ -6,8 +6,9 @@ use shadowfit::{
     Aabb, ClipSpace, DepthFormat, Effort, Focus, FocusForm, Light, Origin, Outcome, Scene, Settings, View, Warp,
     cascades::{CascadeLayout, CascadeSplits, Cascades, SplitScheme},
     fit,
-    input::ConvexScene,
+    input::{ConvexScene, DepthRange},
     multiview::SharedFocus,
+    seen::{DepthTile, Seen},
     warp::{Shift, classify},
 };
 use std::hint::black_box;
@@ -144,6 +145,23 @@ fn fits_of_several_views() {
             assert_eq!(count, 0, "{light:?} {warp:?}");
         }
     }
+}
+
+#[test]
+fn tiles_and_fits_to_them() {
+    let depths: Vec<f32> = (0..160 * 100).map(|pixel| 0.002 + 1e-7 * pixel as f32).collect();
+    let (image, range) = ([160, 100], DepthRange::ZeroToOneReversed);
+    let mut tiles = vec![DepthTile::EMPTY; 160];
+    for_each_case(|view, light, scene| {
+        let count = allocations(|| {
+            let reduced = DepthTile::reduce(&depths, image, 10, range).unwrap();
+            tiles.iter_mut().zip(reduced).for_each(|(tile, reduced)| *tile = reduced);
+            let seen = Seen::from_tiles(view, range, image, 10, &tiles).unwrap();
+            let focus = Focus::new(view, light, scene).with_seen(&seen);
+            black_box(focus.fit(&Settings::default()));
+        });
+        assert_eq!(count, 0, "{view:?} {light:?}");
+    });
 }
 
 #[test]

@@ -279,3 +279,79 @@ impl Camera {
         SeenPoint { position, normal, pixels: tile.pixels.into() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const IMAGE: [u32; 2] = [192, 108];
+
+    fn views() -> [View; 4] {
+        let (eye, forward) = (DVec3::new(3.0, 1.7, -2.0), DVec3::new(0.4, -0.3, -1.0));
+        let perspective = |far| View::perspective(eye, forward, DVec3::Y, 1.0, 1.6, 0.1, far).expect("sound");
+        [
+            perspective(200.0),
+            perspective(f64::INFINITY),
+            View::orthographic(eye, forward, DVec3::Y, 9.0, 1.6, 0.1, 200.0).expect("sound"),
+            // One side of a stereo pair.
+            View::from_matrices(
+                [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.7, 0.0, 1.0]],
+                [[1.1, 0.0, 0.0, 0.0], [0.0, 1.8, 0.0, 0.0], [0.2, -0.1, -1.0, -1.0], [0.0, 0.0, -0.1, 0.0]],
+                crate::ClipSpace::WGPU,
+            )
+            .expect("sound"),
+        ]
+    }
+
+    /// What a depth buffer holds of a plane at a pixel's centre, and the point of the plane that it shows.
+    fn drawn(view: &View, range: DepthRange, plane: &Plane, pixel: DVec2) -> (f64, DVec3) {
+        let place = (pixel + 0.5) / DVec2::new(IMAGE[0].into(), IMAGE[1].into());
+        let (from, step) = view.ray(DVec2::new(place.x, 1.0 - place.y));
+        let depth = -plane.at(from) / plane.normal.dot(step);
+        let ratio = view.near() / view.far();
+        let to_near = match view.lens() {
+            crate::input::Lens::Perspective => (view.near() / depth - ratio) / (1.0 - ratio),
+            crate::input::Lens::Orthographic => (view.far() - depth) / (view.far() - view.near()),
+        };
+        (if range.is_reversed() { to_near } else { 1.0 - to_near }, from + step * depth)
+    }
+
+    /// Position and normal come back from a tile's sample, in every depth range and under every camera.
+    #[test]
+    fn samples_give_back_the_plane() {
+        let normals = [DVec3::Y, DVec3::new(-0.3, 0.2, 1.0), DVec3::new(0.7, 0.1, 0.6)].map(DVec3::normalize);
+        let ranges = [
+            DepthRange::ZeroToOne,
+            DepthRange::ZeroToOneReversed,
+            DepthRange::NegativeOneToOne,
+            DepthRange::NegativeOneToOneReversed,
+        ];
+        let pixel = DVec2::new(70.0, 80.0);
+        for view in views() {
+            for normal in normals {
+                for depth in [2.0, 12.0] {
+                    let (from, step) = view.ray(DVec2::new(0.36, 0.26));
+                    let plane = Plane::through(normal, from + step * depth);
+                    for range in ranges {
+                        let (stored, point) = drawn(&view, range, &plane, pixel);
+                        let change = |step| (drawn(&view, range, &plane, pixel + step).0 - stored) as f32;
+                        let tile = DepthTile {
+                            depth: stored as f32,
+                            slope: [change(DVec2::X), change(DVec2::Y)],
+                            pixel: [70, 80],
+                            pixels: 9,
+                            ..DepthTile::EMPTY
+                        };
+                        let found = Camera::new(&view, range, IMAGE).surface(&tile);
+                        // Depths near 1 are off by 2⁻²⁵, which counts depth / near times as much in a perspective.
+                        let off = found.position.distance(point) / point.distance(view.eye());
+                        assert!(off < 1e-5, "{range:?}: {} for {point}, {off:e}", found.position);
+                        let towards_eye = if normal.dot(step) > 0.0 { -normal } else { normal };
+                        let apart = found.normal.expect("a plane").distance(towards_eye);
+                        assert!(apart < 1e-5, "{range:?}: {:?} for {towards_eye}, {apart:e}", found.normal);
+                    }
+                }
+            }
+        }
+    }
+}

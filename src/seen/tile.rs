@@ -101,8 +101,8 @@ impl DepthTile {
     ///
     /// # Errors
     ///
-    /// Names `"image"` when it has no pixels or more than 65,535 across or down, `"tile"` when it is 0, and `"depths"` when there are
-    /// not as many as pixels.
+    /// Names `"image"` when it has no pixels or more than 65,535 across or down, `"tile"` when it is 0 or more than 32,768, and
+    /// `"depths"` when there are not as many as pixels.
     ///
     /// ```
     /// use shadowfit::{input::DepthRange, seen::DepthTile};
@@ -138,12 +138,14 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
+    /// The largest tile: twice the distance from its middle, squared, fits into the 31 bits that a shader has for it.
+    const MOST_TILE: u32 = 1 << 15;
+
     pub(crate) fn new(image: [u32; 2], tile: u32) -> Result<Self, InputError> {
-        let most = f64::from(u16::MAX);
         for side in image {
-            check::within("image", side.into(), Expected::Within { least: 1.0, most })?;
+            check::within("image", side.into(), Expected::Within { least: 1.0, most: f64::from(u16::MAX) })?;
         }
-        check::within("tile", tile.into(), Expected::Within { least: 1.0, most })?;
+        check::within("tile", tile.into(), Expected::Within { least: 1.0, most: Self::MOST_TILE.into() })?;
         Ok(Self { image, tile })
     }
 

@@ -69,8 +69,8 @@ fn shadowfit_reduce_tile(
         let pixel = first + vec2(index % size.x, index / size.x);
         let depth = shadowfit_surface_depth(depths, image, clear, vec2<i32>(pixel));
         if depth >= 0.0 {
-            // Positive floats are in the order of their bits.
-            let bits = bitcast<u32>(depth);
+            // Positive floats are in the order of their bits; without the sign −0 is the least, as it should be.
+            let bits = bitcast<u32>(depth) & 0x7fffffffu;
             least = min(least, bits);
             greatest = max(greatest, bits);
             pixels += 1u;

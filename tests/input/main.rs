@@ -3,6 +3,7 @@
 //! - `cameras`: cameras as renderers hand them over.
 //! - `conventions`: one camera in every convention.
 //! - `depth_buffer`: values of the camera's depth buffer.
+//! - `depth_tiles`: depth buffers reduced to tiles.
 //! - `doors`: spots of renderers, lights within planes, scenes of many planes.
 //! - `errors`: what is refused.
 //! - `projections`: what a matrix may hold.
@@ -13,6 +14,7 @@
 mod cameras;
 mod conventions;
 mod depth_buffer;
+mod depth_tiles;
 mod doors;
 mod errors;
 mod projections;

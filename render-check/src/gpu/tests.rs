@@ -78,8 +78,12 @@ fn tiles_of_the_card_are_those_of_the_crate() {
     // Tiles of a pixel are the depth buffer itself.
     let pixels = surfaces.depth_tiles(&gpu, 1).expect("reduced");
     let depths: Vec<f32> = pixels.iter().map(|tile| tile.depth).collect();
-    assert!(depths.iter().filter(|&&depth| depth > 0.0).count() > depths.len() / 4);
-    for tile in [7, 16, 64] {
+    for (tile, triangle) in pixels.iter().zip(&surfaces.triangles) {
+        assert_eq!(tile.is_empty(), *triangle == Surfaces::SKY);
+    }
+    let sky = pixels.iter().filter(|tile| tile.is_empty()).count();
+    assert!(sky > 0 && sky < pixels.len() / 2, "{sky} pixels of sky");
+    for tile in [1, 7, 16, 64, 200] {
         let card = surfaces.depth_tiles(&gpu, tile).expect("reduced");
         let own = DepthTile::reduce(&depths, IMAGE, tile, DepthRange::ZeroToOneReversed).expect("sound");
         for (index, (card, own)) in card.iter().zip(own).enumerate() {
@@ -114,6 +118,45 @@ fn tiles_tell_the_surface_of_their_sample() {
     }
     // Pixels whose centre lies on an edge may differ.
     assert!(near * 50 >= shown * 49, "{near} of {shown}");
+}
+
+/// Stored depth and its slope give back the plane of the triangle that the pixel shows.
+#[test]
+fn the_slopes_of_tiles_are_those_of_the_triangles() {
+    let Stage { gpu, mesh, view, .. } = stage(ClipSpace::WGPU);
+    let geometry = Geometry::upload(&gpu, &mesh, view.eye()).expect("it fits");
+    let surfaces = Surfaces::draw(&gpu, &geometry, &view, IMAGE).expect("drawn");
+    let world_from_clip = view.clip_from_world().inverse();
+    let [width, height] = IMAGE;
+    // A pixel's centre at a stored depth. The camera's depth buffer is reversed; the view's own depth runs from −1 to 1.
+    let point = |x: f64, y: f64, stored: f32| {
+        let place = (DVec2::new(x, y) + 0.5) / DVec2::new(width.into(), height.into());
+        let clip = DVec3::new(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y, 1.0 - 2.0 * f64::from(stored));
+        world_from_clip.project_point3(clip)
+    };
+    let shown = |x: u32, y: u32| surfaces.triangles[(y * width + x) as usize];
+    let mut angles = Vec::new();
+    for tile in surfaces.depth_tiles(&gpu, 4).expect("reduced").iter().filter(|tile| !tile.is_empty()) {
+        let [x, y] = tile.pixel.map(u32::from);
+        let is_inside = x > 0 && y > 0 && x + 1 < width && y + 1 < height;
+        // Elsewhere the nearest of the neighbours may be of another face.
+        let neighbours = || [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
+        if !is_inside
+            || neighbours().iter().any(|&(x, y)| shown(x, y) != shown(tile.pixel[0].into(), tile.pixel[1].into()))
+        {
+            continue;
+        }
+        let [a, b, c] = mesh.triangles[shown(x, y) as usize].map(|vertex| mesh.vertices[vertex as usize]);
+        let (x, y) = (f64::from(x), f64::from(y));
+        let sample = point(x, y, tile.depth);
+        let right = point(x + 1.0, y, tile.depth + tile.slope[0]) - sample;
+        let down = point(x, y + 1.0, tile.depth + tile.slope[1]) - sample;
+        let (found, normal) = (right.cross(down).normalize(), (b - a).cross(c - a).normalize());
+        angles.push(found.cross(normal).length().min(1.0).asin().to_degrees());
+    }
+    angles.sort_by(f64::total_cmp);
+    assert!(angles.len() > 200, "{} tiles", angles.len());
+    assert!(angles[angles.len() - 1] < 0.01, "{}°", angles[angles.len() - 1]);
 }
 
 #[test]
